@@ -2,7 +2,6 @@
 
 import ast
 import functools
-import itertools
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,8 +16,9 @@ COMMENT = re.compile(rf"(?:/\*\*[\s*]*|^//)\s*{WORDS}", re.MULTILINE)
 """A comment of JSDoc, of a module or at its top level."""
 PAGE = "webviz/page/web"
 PREPOSITION = re.compile(
-    r"\s*(Above|After|As|At|Before|Below|Between|Beyond|By|For|From|In|Of|On|Over|Per|Since|Through"
-    r"|To|Under|Until|When|Within|Without|That|Those)\b"
+    r"\s*(About|Above|After|Along|Among|As|At|Before|Behind|Below|Beside|Between|Beyond|By|During"
+    r"|For|From|In|Of|On|Over|Per|Since|Through|To|Under|Until|When|With|Within|Without"
+    r"|That|Those)(?![\w-])"
 )
 ROOMS = ("webviz", "displays", "urdf", "sim")
 ARGUMENTS = re.compile(r"^Args:\n((?: +.*\n?|\n)+)", re.MULTILINE)
@@ -104,23 +104,23 @@ def test_every_documented_argument_exists(folder: str) -> None:
     assert [each for path in files for each in strange_arguments(path)] == []
 
 
-def values(path: Path) -> Iterator[str]:
-    """Return the docstrings of fields and constants."""
+def docstrings(path: Path) -> Iterator[str]:
+    """Return the docstrings of a module, its classes, functions, fields and constants."""
     for node in nodes(path):
-        for value, text in itertools.pairwise(vars(node)["body"]):
-            match value, text:
-                case ast.Assign() | ast.AnnAssign(), ast.Expr(ast.Constant(str(words))):
-                    yield words
+        for statement in vars(node)["body"]:
+            match statement:
+                case ast.Expr(ast.Constant(str(text))):
+                    yield text
                 case _:
                     pass
 
 
 @pytest.mark.parametrize("folder", [*ROOMS, "tests"])
-def test_docstrings_of_values_begin_with_their_noun(folder: str) -> None:
+def test_docstrings_begin_with_their_noun_or_verb(folder: str) -> None:
     faults = [
         f"{path.name}: {text[:60]}"
         for path in sorted((ROOT / folder).rglob("*.py"))
-        for text in values(path)
+        for text in docstrings(path)
         if PREPOSITION.match(text)
     ]
     assert faults == []

@@ -169,7 +169,7 @@ def modules_of_the_page() -> dict[str, set[str]]:
 
 
 def test_modules_of_the_page_import_each_other_by_name() -> None:
-    """In the one file of the page a module has no address that a path could start from."""
+    """Modules have no address in the page's one file that a path could start from."""
     paths = {
         path.name
         for folder in (ROOT / "webviz/page/web", FEATURES)
@@ -384,7 +384,7 @@ APART = {"benchmarks"}
 
 
 def test_no_two_classes_of_tests_share_a_name() -> None:
-    """Those of one idea are one, in `tests/support` or the `conftest.py` of their folder."""
+    """Classes of one idea are one, in `tests/support` or the `conftest.py` of their folder."""
     tests = ROOT / "tests"
     paths = [p for p in tests.rglob("*.py") if p.relative_to(tests).parts[0] not in APART]
     named = defaultdict[str, list[str]](list)

@@ -127,7 +127,7 @@ class Camera(AnnotatedImage):
     ] = msgspec.field(default_factory=dict)
 
     def new_state(self) -> _State:
-        """Without a message."""
+        """Return the state before the first message."""
         return _State()
 
     def waits(self, name: str) -> bool:

@@ -88,7 +88,7 @@ class CameraInfo(Display):
     ] = Topic("/camera/image_raw")
 
     def new_state(self) -> _State:
-        """Without a message."""
+        """Return the state before the first message."""
         return _State()
 
     def listens(self, name: str) -> bool:

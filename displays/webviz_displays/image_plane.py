@@ -73,7 +73,7 @@ class ImagePlane(ImageDisplay):
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
 
     def new_state(self) -> _State:
-        """Without an image."""
+        """Return the state before the first image."""
         return _State()
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:

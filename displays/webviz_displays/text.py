@@ -51,7 +51,7 @@ class Text(Display):
     ] = 0.1
 
     def new_state(self) -> _State:
-        """Without a message."""
+        """Return the state before the first message."""
         return _State()
 
     def waits(self, name: str) -> bool:

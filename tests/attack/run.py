@@ -127,7 +127,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
-    """Those that attack no viewer, but what it reads and how it saves."""
+    """Return the attacks on files, and on how they are saved."""
     for kind in (*FILES, *(class_.kind for class_ in LOCAL)):
         (folder / kind).mkdir()
     for kind, draw in FILES.items():
@@ -137,7 +137,7 @@ def local_attacks(folder: Path) -> Iterator[Attack]:
 
 
 def remote_attacks(target: Target, domain: int) -> Iterator[Attack]:
-    """Those that attack a viewer."""
+    """Return the attacks on a running viewer."""
     yield Dds(domain)
     yield Graphs(target, domain)
     yield Weights(target, domain)

@@ -65,7 +65,7 @@ def test_rows_may_be_side_by_side(display_bench: Callable) -> None:
 
 
 def test_a_surface_faces_up_and_leaves_holes_open() -> None:
-    """Of all patterns of four neighbours: a triangle for three, two for four."""
+    """Three of four neighbours make a triangle, four make two."""
     # Rows are along -x, columns along -y.
     xyz = np.array([[(1.0, 1.0, 0.0), (1.0, 0.0, 0.0)], [(0.0, 1.0, 0.0), (0.0, 0.0, 0.0)]])
     for pattern in range(16):

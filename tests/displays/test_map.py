@@ -391,7 +391,7 @@ class TestMap(BuiltInChecks):
 
 
 def test_selecting_cell_of_a_map(at) -> None:
-    """In the second tile of a turned map."""
+    """The cell is in the second tile of a turned map."""
     cells = np.zeros((3, 600), np.int8)
     cells[1, 520] = 100
     info = {

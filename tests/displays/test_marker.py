@@ -569,6 +569,6 @@ def test_selecting_item_of_a_marker(
     fields: dict[str, Any],
     values: dict[str, str],
 ) -> None:
-    """Of two markers whose triangles are one mesh; they have one without an area, too."""
+    """The triangles of two markers are one mesh, with one that has no area."""
     point = (10.2, 0.3, 0.0) if number is None else None
     check_details(marker(bench, key, number, point, type=kind, **fields), "Marker a/1", values)

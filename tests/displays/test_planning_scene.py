@@ -73,7 +73,7 @@ def world(bench: Benches) -> Any:
 
 @pytest.fixture
 def arm(world: Any) -> Any:
-    """With the robot, whose wrist is known."""
+    """Return a world with the robot, whose wrist is known."""
     describe(world, ARM)
     tell(world, {"name": "cell", "robot_state": state(wrist=0.0)})
     return world

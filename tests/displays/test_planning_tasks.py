@@ -24,7 +24,7 @@ def tell(at: Any, type_name: str, values: dict[str, Any], topic: str) -> None:
 
 
 def markers(at: Any) -> list[float]:
-    """Along x, those of the solution."""
+    """Return the positions of the solution's markers along x."""
     return sorted(
         round(float(x), 3)
         for key, node in at.nodes().items()

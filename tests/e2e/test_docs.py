@@ -196,7 +196,7 @@ WORK = {
 def outcomes(
     example_folder: Path, ros_env: dict[str, str], tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Mapping[tuple[str, ...] | str, Future[tuple[int | None, str]]]]:
-    """Of all commands and programs, several of which run at once, beside a simulated robot."""
+    """Run all commands and programs beside a simulated robot, several at once."""
     multiprocessing.set_forkserver_preload(["warm"])
     robot = Program([sys.executable, "-m", "webviz_sim"], ros_env, example_folder / "robot.txt")
     try:

@@ -44,7 +44,7 @@ KNOB = {"m1": Handle("Knob", None, (Control("", "button"),))}
 
 
 class Unprintable(Exception):
-    """Of nobody's making."""
+    """Exception whose text raises one, too."""
 
     def __str__(self) -> str:
         raise ValueError("not even this can be told")

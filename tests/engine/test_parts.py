@@ -26,7 +26,7 @@ KINDS = (Command, FileCommand)
 
 
 class Boom(Exception):
-    """Of nobody's making."""
+    """Exception that no code expects."""
 
 
 class Count(Command, frozen=True):

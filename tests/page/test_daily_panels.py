@@ -69,7 +69,7 @@ def log(viewer: PageBench, *lines: Line, times: int = 1) -> None:
 
 
 def many_lines() -> Sequence[Line]:
-    """As many lines as a source holds between two turns."""
+    """Return as many lines as a source holds between two turns."""
     levels = 20, 20, 20, 10, 40
     return [(levels[i % 5], f"node_{i % 3}", f"line {i} {HOSTILE}") for i in range(1000)]
 

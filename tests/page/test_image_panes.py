@@ -64,7 +64,7 @@ def test_two_images_of_one_topic_have_their_names_too(tab: Any) -> None:
 
 
 def width(tab: Any) -> float:
-    """That of the picture "Color" on the screen, in pixels."""
+    """Return the width of the picture "Color" on the screen, in pixels."""
     canvas = pane(tab, "Color").locator("canvas")
     canvas.wait_for()
     return float(canvas.bounding_box()["width"])

@@ -67,7 +67,7 @@ def choose_theme(tab: ViewerTab, name: str) -> None:
 
 
 def luminance(color: list[float]) -> float:
-    """As WCAG defines it, of sRGB from 0 to 255."""
+    """Return the luminance of sRGB from 0 to 255, as WCAG defines it."""
     linear = [c / 3294.6 if c <= 10 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in color]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 

@@ -192,7 +192,7 @@ def test_everything_is_inside_the_toolbar(phone: ViewerTab, width: int) -> None:
 
 
 def right_edges(phone: ViewerTab, *names: str) -> list[float]:
-    """Of buttons."""
+    """Return the right edges of buttons, in pixels."""
     boxes = [phone.button(name).bounding_box() for name in names]
     return [box["x"] + box["width"] if box else 999.0 for box in boxes]
 
@@ -293,7 +293,7 @@ class Finger:
 
 @pytest.fixture
 def tree(phone: ViewerTab) -> Tree:
-    """On a tablet, where the panels are beside the scene."""
+    """Open the tree on a tablet, where the panels are beside the scene."""
     phone.page.set_viewport_size({"width": 800, "height": 900})
     phone.viewer.show(group("g"), *named("d", "e"))
     tree = Tree(phone)

@@ -413,7 +413,7 @@ def test_nothing_in_the_page_changes_while_nothing_changes(viewer: PageBench, tr
     )
 
     def changes() -> int:
-        """In some turns; what the click has begun may take a while on a busy machine."""
+        """Return the changes in twenty turns: the click takes effect late on a busy machine."""
         tree.tab.page.evaluate("window.changes = 0")
         for _ in range(20):
             tree.tab.turn()

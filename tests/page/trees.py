@@ -33,7 +33,7 @@ class Tree:
         return self.tab.page.get_by_role("menuitem", name=label)
 
     def names(self) -> list[str]:
-        """Of the rows in the page from top to bottom, but for the global options."""
+        """Return the names of the page's rows from top to bottom, but for the global options."""
         rows = self.tab.page.locator(".wv-tree-canvas .wv-tree-node:not([data-id=global])")
         return rows.evaluate_all(
             "rows => rows.sort((a, b) => parseFloat(a.style.top) - parseFloat(b.style.top))"
@@ -93,7 +93,7 @@ def group(
 
 
 def height_of(element: playwright.Locator) -> float:
-    """In pixels."""
+    """Return the height of an element, in pixels."""
     box = element.bounding_box()
     assert box is not None
     return box["height"]

@@ -59,7 +59,7 @@ class LonePlot(LonePanel[Plot]):
         return self.chart.values["curves"][index]
 
     def points(self) -> list[tuple[float, float | None]]:
-        """Of the first curve, as a page puts it together."""
+        """Return the points of the first curve, as a page puts them together."""
         first, end = self.curve()["chunks"]
         parts = [self.chart.parts[f"0.{number}"] for number in range(first, end)]
         return [

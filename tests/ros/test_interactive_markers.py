@@ -42,7 +42,7 @@ def serve(webviz_domain: int) -> Iterator[Serve]:
 
 
 def handles(viewer: LiveViewer) -> dict[str, Handle]:
-    """By the name of their marker."""
+    """Return the handles by the name of their marker."""
     return {handle.name: handle for handle, _ in viewer.viewer.snapshot().handles.values()}
 
 

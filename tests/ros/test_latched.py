@@ -52,7 +52,7 @@ class DescriptionViewer:
         answer.result(0)
 
     def send(self, command: Command, browser: int | None = None) -> None:
-        """For panels that send nothing."""
+        """Refuse a command: these panels send none."""
         raise AssertionError(command)
 
     def until(self, condition: Callable[[], Any]) -> None:

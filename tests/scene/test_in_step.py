@@ -18,7 +18,7 @@ PICTURES = 12
 
 
 def nodes_at(x: float) -> dict[str, Node]:
-    """Of each kind that is sent in coordinates of the fixed frame, one in a row of its own."""
+    """Return a node of each kind that is sent in coordinates of the fixed frame, a row each."""
     return {
         "points": Points(floats((x, 2, 0), (x + 0.3, 2, 0)), YELLOW, 0.4),
         "lines": Lines(floats(((x, 1, 0), (x + 0.5, 1, 0))), YELLOW, 8.0),

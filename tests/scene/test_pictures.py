@@ -93,7 +93,7 @@ def test_a_picture_that_changes_never_blanks(view: Any) -> None:
 
 
 def greenness(view: Any) -> list[int]:
-    """Along a green line that crosses a red picture and passes by the camera."""
+    """Return the green along a line that crosses a red picture and passes by the camera."""
     view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 0.5, 0.0)) == RED)
     pixels = view.pixels()
     places = [view.row_column((x, 0.0, 0.0)) for x in np.linspace(-1.0, 1.0, 9).tolist()]

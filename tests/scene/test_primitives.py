@@ -281,7 +281,7 @@ def test_a_mesh_is_seen_from_below_and_never_black(view: Any) -> None:
 
 
 def test_colours_of_corners_and_ends_are_mixed_as_in_rviz(view: Any) -> None:
-    """In sRGB; the number of corners may change, and a mesh may have one colour again."""
+    """Colours are mixed in sRGB; corners may change in number, and a mesh to one colour."""
     vertices, faces = square(1.0)
     is_left = vertices[:, 0] < 0
     rgba = np.where(is_left[:, None], (200, 0, 0, 255), (0, 200, 0, 255)).astype(np.uint8)

@@ -67,7 +67,7 @@ class Window(Page):
 
     @property
     def size(self) -> tuple[float, float]:
-        """Of the picture, as the server believes."""
+        """Return the size of the picture, as the server has it."""
         (browser,) = self.scene.cameras.views()
         return self.scene.cameras.size(browser)
 
@@ -417,7 +417,7 @@ def test_f_focuses_the_point_under_the_mouse(window: Window, view: View) -> None
 
 
 def test_a_screenshot_of_the_view_is_downloaded(view: conftest.View, tmp_path: Any) -> None:
-    """Of a page that draws all the time."""
+    """The page draws all the time."""
     view.scene.upsert("box", "b", box(0.0, 0.0, 0.5, 1.0, 1.0, 1.0))
     view.show()
     for name in ("robot.png", ""):

@@ -75,7 +75,7 @@ THROW = """async () => {
 
 
 def test_stack_traces_have_the_names_and_lines_of_modules(view: View) -> None:
-    """As those of a release do, by its source map."""
+    """A release has them by its source map."""
     match = re.search(r"keyText \(.*/webviz/keys\.js:(\d+):\d+\)", view.evaluate(THROW))
     assert match
     line = (FOLDER / "keys.js").read_text("utf-8").splitlines()[int(match[1]) - 1]

@@ -47,7 +47,7 @@ class Head(IdlStruct, **named("std_msgs", "msg", "Header")):
 
 @dataclass
 class RangeMessage(IdlStruct, **named("sensor_msgs", "msg", "Range")):
-    """Without `variance`, which Iron added."""
+    """Range of Humble, without `variance`, which Iron added."""
 
     header: Head
     radiation_type: uint8

@@ -37,7 +37,7 @@ def in_moving_frame(type_name: str, *values: dict[str, Any]) -> Callable[[Any], 
 
 
 def old_clouds(bench: Any) -> None:
-    """As `clouds`, in the message type before PointCloud2."""
+    """Receive the points of `clouds` in the message type before PointCloud2."""
     bench.transform("map", "lidar", (1.0, 0.0, 0.5), (0.5, 0.5, 0.5, 0.5))
     points = [(1.0, 0.0, 0.1), (1.1, 0.2, 0.3), (40.0, 4.0, 4.4), (41.0, 4.1, 4.5)]
     channels = {"intensity": [100.0, 900.0, 30.0, 5000.0], "rgb": [1e-38, 2e-38, 3e-38, 4e-38]}
@@ -81,7 +81,7 @@ def at(x: float) -> dict[str, Any]:
 
 
 def turned(x: float) -> dict[str, Any]:
-    """As `at`, looking to the left."""
+    """Return the pose of `at`, turned to the left."""
     return {"position": {"x": x}, "orientation": {"z": 0.6, "w": 0.8}}
 
 

@@ -50,7 +50,7 @@ def with_mesh(path: Path) -> str:
 
 
 def processes() -> list[psutil.Process]:
-    """Those that load robots, living."""
+    """Return the living processes that load robots."""
     return [child for child, line in command_lines().items() if "webviz_urdf.loader" in line]
 
 

@@ -86,7 +86,7 @@ class ChangeDisplay(NamedTuple):
 
     @property
     def label(self) -> str:
-        """Of the button that makes the change."""
+        """Label of the button that makes the change."""
         return self.remedy.label
 
 
@@ -101,7 +101,7 @@ class HideDisplays(NamedTuple):
 
     @property
     def label(self) -> str:
-        """Of the button that hides them."""
+        """Label of the button that hides the displays."""
         count = len(self.displays)
         return "Hide it" if count == 1 else "Hide both" if count == 2 else f"Hide all {count}"
 
@@ -119,7 +119,7 @@ class TryYaw(NamedTuple):
 
     @property
     def label(self) -> str:
-        """Of the button that tries it."""
+        """Label of the button that tries the remedy."""
         return "Show me"
 
 

@@ -74,7 +74,7 @@ class InputSeen:
 
     @property
     def silence(self) -> str:
-        """For how long webviz has listened without a message, for sentences."""
+        """Time without a message while webviz listened, in words."""
         return in_words(round(self.silent_s * 1e9))
 
 

@@ -31,7 +31,7 @@ class Pixels:
     tone: Tone
 
     def __eq__(self, other: object) -> bool:
-        """Of the same data, which is not compared."""
+        """Return whether the data is the same object; its values are not compared."""
         if not isinstance(other, Pixels):
             return NotImplemented
         mine, theirs = self.image, other.image
@@ -63,7 +63,7 @@ class Encoded:
     swaps_red_and_blue: bool = False
 
     def __eq__(self, other: object) -> bool:
-        """Of the same data, which is not compared."""
+        """Return whether the data is the same object; its values are not compared."""
         if not isinstance(other, Encoded):
             return NotImplemented
         how = self.swaps_red_and_blue == other.swaps_red_and_blue
@@ -125,7 +125,7 @@ class Readout:
     max_items: int = 20
 
     def __eq__(self, other: object) -> bool:
-        """Of the same message, which is not compared."""
+        """Return whether the message is the same object; its values are not compared."""
         if not isinstance(other, Readout):
             return NotImplemented
         return self.message is other.message and self._how == other._how

@@ -60,7 +60,7 @@ class OtherFixedFrame:
 
     @property
     def label(self) -> str:
-        """Of the button that chooses it."""
+        """Label of the button that chooses the frame."""
         return f"Use {self.frame}"
 
 

@@ -206,7 +206,7 @@ def form_of(name: str) -> type[msgspec.Struct]:
 
 @functools.cache
 def _forms() -> dict[str, tuple[type[Any], Any]]:
-    """By name the commands of pages, each with a struct of the fields that a page may fill in."""
+    """Return the commands of pages by name, each with a struct of what a page may fill in."""
     return {class_.__name__: (class_, _form(class_)) for class_ in commands()}
 
 

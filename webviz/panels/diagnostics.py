@@ -58,7 +58,7 @@ class Diagnostics(Panel):
     ] = 5.0
 
     def __post_init__(self) -> None:
-        """Without statuses."""
+        """Begin without statuses."""
         self.problems: dict[str, str] = {}
         self.start_over()
 

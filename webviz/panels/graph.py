@@ -44,7 +44,7 @@ class NodeGraph(Panel):
     ] = False
 
     def __post_init__(self) -> None:
-        """Without a graph."""
+        """Begin without a graph."""
         self.made_of: tuple[Any, ...] = ()
         self.parts: dict[str, Mapping[str, Any]] = {}
         self.values: dict[str, Any] = {}

@@ -51,7 +51,7 @@ class Log(Panel):
     lines: Annotated[int, Prop(ge=100, le=100_000, help="Lines that are kept.")] = 100_000
 
     def __post_init__(self) -> None:
-        """Without lines."""
+        """Begin without lines."""
         self.type = LOG
         self.problem = ""
         self.filled = ""

@@ -26,7 +26,7 @@ class PathPanel(Panel):
     ] = ""
 
     def __post_init__(self) -> None:
-        """Without values."""
+        """Begin without values."""
         self.id = ""
         self.types: Mapping[str, str] = {}
         self.reading = PathReading("")

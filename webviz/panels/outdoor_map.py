@@ -193,7 +193,7 @@ class OutdoorMap(Panel):
     window: Annotated[float, Prop(gt=0, le=86400, unit="s", help="Time read after a seek.")] = 600.0
 
     def __post_init__(self) -> None:
-        """Without tracks."""
+        """Begin without tracks."""
         self.types: dict[str, str] = {}
         self.tracks: dict[str, _Track] = {}
         self.refused: dict[str, str] = {}

@@ -50,7 +50,7 @@ class Parameters(Panel):
     ] = msgspec.field(default_factory=list)
 
     def __post_init__(self) -> None:
-        """Without parameters."""
+        """Begin without parameters."""
         self.lock = threading.Lock()
         self.chosen = self.requested_node = self.node
         self.rows: dict[str, dict[str, Any]] = {}

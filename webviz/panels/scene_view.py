@@ -57,7 +57,7 @@ class SceneView(Panel):
     ] = msgspec.field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Without an id."""
+        """Begin without an id."""
         self.id = ""
 
     def build(self, ui: Ui, send: Send) -> None:

@@ -53,7 +53,7 @@ class SendingPanel(Panel):
     )
 
     def __post_init__(self) -> None:
-        """Without values."""
+        """Begin without values."""
         self.lock = threading.Lock()
         self.id = ""
         self.text = ""

@@ -68,7 +68,7 @@ class StateTimeline(Panel):
     window: Annotated[float, Prop(gt=0, le=86400, unit="s", help="Time that is shown.")] = 60.0
 
     def __post_init__(self) -> None:
-        """Without changes."""
+        """Begin without changes."""
         self.id = ""
         self.types: Mapping[str, str] = {}
         self.chooser = FieldChooser(leaf_paths, self._add)

@@ -46,7 +46,7 @@ class _Call(msgspec.Struct, eq=False):
 
     @property
     def name(self) -> str:
-        """Of the service, or of the action that it is a part of."""
+        """Name of the service, or of the action that it is a part of."""
         return service_name(self.client).partition("/_action/")[0]
 
 

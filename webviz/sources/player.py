@@ -266,12 +266,12 @@ class Player:
 
     @property
     def graph(self) -> Graph:
-        """For output, which the restricted graph refuses while the past is shown."""
+        """Graph for output, which the restricted graph refuses while the past is shown."""
         return self.live.graph if self.live else self._read_only
 
     @property
     def bridges(self) -> Sequence[Bridge]:
-        """Those of live topics; a recording needs none."""
+        """Bridges of live topics; a recording needs none."""
         return self.live.bridges if self.live else ()
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
@@ -306,7 +306,7 @@ class Player:
         return playing.now_ns() if (playing := self._playhead or self.live) else 0
 
     def clock_messages(self) -> int | None:
-        """Those of live topics; of a recording, /clock is not counted, but sets the time."""
+        """Return the number of live /clock messages; those of a recording are not counted."""
         return self.live.clock_messages() if self.live and not self.is_opened else 0
 
     def resolve(self, topic: str) -> str:

@@ -17,7 +17,7 @@ ALL = "webviz_all"
 """Stands for `*` while a pattern is resolved like a name."""
 REMEDY = "Let the owner allow it for this session, or"
 _OF_ACTION = "/_action/"
-"""Behind the name of an action, in those of its services."""
+"""Separator between the name of an action and those of its services."""
 
 AllowList = tuple[str, ...]
 """Names of topics, services and actions, in which `*` stands for any characters."""
@@ -78,7 +78,7 @@ class RestrictedGraph:
 
     @property
     def rights(self) -> Rights:
-        """As decided where the viewer was started."""
+        """Rights, as decided where the viewer was started."""
         return self._rights
 
     @property

@@ -87,7 +87,7 @@ class Source(Protocol):
 
     @property
     def graph(self) -> Graph:
-        """For output."""
+        """Graph for output."""
         ...
 
     @property

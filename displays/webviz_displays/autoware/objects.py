@@ -279,7 +279,7 @@ class TrackedObjects(IdentifiedObjects):
     ] = "All"
 
     def is_wanted(self, item: Any) -> bool:
-        """By whether it moves."""
+        """Return whether the object's motion is among those that are drawn."""
         if self.dynamic_status == "All":
             return True
         return item.kinematics.is_stationary == (self.dynamic_status == "Static")

@@ -64,7 +64,7 @@ class SeenObject(msgspec.Struct, frozen=True, eq=False):
 
     @property
     def speed(self) -> float:
-        """In m/s."""
+        """Speed, in m/s."""
         return float(np.linalg.norm(self.velocity))
 
     @property

@@ -156,7 +156,7 @@ class DepthCloud(PointsDisplay):
     ] = 100_000
 
     def new_state(self) -> _State:
-        """Without a message."""
+        """Return the state before the first message."""
         return _State()
 
     def listens(self, name: str) -> bool:

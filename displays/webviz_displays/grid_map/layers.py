@@ -59,7 +59,7 @@ class Layers(msgspec.Struct, frozen=True, eq=False):
 
     @property
     def names(self) -> list[str]:
-        """Of all layers."""
+        """Names of all layers."""
         return self.message.layers
 
     def layer(self, name: str, path: str = "") -> F32:

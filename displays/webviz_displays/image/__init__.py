@@ -48,7 +48,7 @@ class Image(AnnotatedImage):
     ] = Topic("/camera/image_raw")
 
     def new_state(self) -> AnnotatedState:
-        """Without an image."""
+        """Return the state before the first image."""
         return AnnotatedState()
 
     def waits(self, name: str) -> bool:

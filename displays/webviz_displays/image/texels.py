@@ -10,7 +10,7 @@ from webviz.api.pictures import Encoded, Pixels
 from webviz.data.images import render
 
 MAX_TEXELS = 320
-"""Along an edge."""
+"""Largest number of texels along an edge."""
 
 
 def texels(picture: Pixels | Encoded, alpha: float = 1.0) -> NDArray[np.uint8]:

@@ -158,7 +158,7 @@ def unique_names(names: Sequence[str]) -> Iterator[str]:
 
 
 class _Invalid(Exception):
-    """Of a control; what is wrong follows its name."""
+    """Fault of a control, as the sentence that follows its name."""
 
 
 def _parts(

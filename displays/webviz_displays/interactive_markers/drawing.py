@@ -210,7 +210,7 @@ def has_own_group(part: CompleteControl) -> bool:
 def orientation(
     part: CompleteControl, pose: Pose, turned: float
 ) -> tuple[float, float, float, float]:
-    """Of the group of a control, given the pose of its marker; pages turn it to the camera."""
+    """Return the orientation of a control's group in its marker; pages turn it to the camera."""
     if part.control.facing == "fixed":
         x, y, z = matrices(part.control.wxyz)[:, 0].tolist()
         return from_axis_angle((x, y, z), turned)

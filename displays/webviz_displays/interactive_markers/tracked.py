@@ -51,12 +51,12 @@ class Tracked:
 
     @property
     def pose(self) -> Pose:
-        """In its frame at its stamp."""
+        """Pose of the marker in its frame at its stamp."""
         return self._place.pose
 
     @property
     def source(self) -> Place:
-        """As the server has it, or as it was dragged since."""
+        """Place of the marker, as the server has it or as it was dragged since."""
         return self._place
 
     def update(self, completed: Completed) -> None:

@@ -1,4 +1,4 @@
-"""From the ranges of a laser scan to points."""
+"""Points of a laser scan, from its ranges."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class LoadedMesh:
 
     @property
     def parts(self) -> tuple[MeshPart, ...]:
-        """At least one."""
+        """Parts of the mesh, at least one."""
         return self.content.parts
 
     @cached_property

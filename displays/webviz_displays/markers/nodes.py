@@ -1,4 +1,4 @@
-"""From markers to nodes: those of one look are drawn together."""
+"""Nodes of markers: those that look alike share one."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class DeletedMarker(msgspec.Struct, frozen=True):
 
 
 class Remarks(msgspec.Struct):
-    """For statuses.
+    """Faults of markers, for statuses.
 
     Args:
         refused: why the newest version of a marker cannot be drawn.

@@ -59,7 +59,7 @@ class Solids(msgspec.Struct, frozen=True, eq=False):
 
     @property
     def name(self) -> str:
-        """Of the shape."""
+        """Name of the shape."""
         return self.shape if isinstance(self.shape, str) else self.mesh
 
     def only(self, rows: NDArray[np.bool_]) -> Solids:
@@ -84,7 +84,7 @@ def solids_of(batch: MarkerBatch) -> Iterator[Solids]:
 
 
 def instances_of(solids: Iterable[Solids]) -> dict[str, Node]:
-    """As few nodes as possible for solids."""
+    """Return as few nodes as possible for solids."""
     alike: dict[tuple[Solid | Shape, bool], list[Solids]] = {}
     for each in solids:
         alike.setdefault((each.shape, each.is_data), []).append(each)

@@ -167,7 +167,7 @@ def _primitives(
 
 
 def _extents(kind: int, sizes: list[float]) -> tuple[float, ...]:
-    """From the dimensions of a primitive: edges, a radius, or a height and a radius."""
+    """Return the extents of a primitive from its edges, its radius, or its height and radius."""
     if kind == BOX:
         return tuple(sizes)
     radius = sizes[-1]

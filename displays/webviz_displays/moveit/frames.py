@@ -119,7 +119,7 @@ def _between(frame: str, name: str, frames: Frames) -> Pose | None:
 def _still(
     poses: dict[str, tuple[Body, Pose]], bodies: Mapping[str, Body]
 ) -> dict[str, tuple[Body, Pose]]:
-    """Those that are the same as before; the same mapping if all are."""
+    """Return the poses of unchanged bodies, as the same mapping if all are."""
     if all(bodies.get(key) is each[0] for key, each in poses.items()):
         return poses
     return {key: each for key, each in poses.items() if bodies.get(key) is each[0]}

@@ -145,7 +145,7 @@ class Octomap(msgspec.Struct):
 
 
 def _read(message: Any, choice: VoxelChoice) -> _Read:
-    """In a worker: what is to be drawn of a tree."""
+    """Return the visible voxels of a tree, in a worker."""
     try:
         with memory_for(message):
             tree = read_octree(message)

@@ -154,7 +154,7 @@ class Playback(msgspec.Struct, frozen=True):
 
 
 def playback_of(path: Any, attached: Rgb = ATTACHED, above: str = "") -> Playback:
-    """From the properties of Trajectory or of a planned path, which have the same names.
+    """Return the playback that the properties of Trajectory or of a planned path choose.
 
     Args:
         path: has the properties.

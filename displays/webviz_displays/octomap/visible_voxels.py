@@ -85,6 +85,6 @@ def by_probability(log_odds: NDArray[np.float32]) -> tuple[U8, ColorScale]:
 
 
 def probabilities(log_odds: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Of being occupied, (N,)."""
+    """Return the probabilities of being occupied, (N,)."""
     with np.errstate(over="ignore"):
         return 1.0 / (1.0 + np.exp(-log_odds.astype(np.float64)))

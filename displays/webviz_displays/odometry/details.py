@@ -45,7 +45,7 @@ def _vector(v: messages.Vector3) -> str:
 
 
 def _deviations(covariance: Any) -> str:
-    """Along and about the axes, "?" for a negative variance."""
+    """Return the deviations along or about the axes, "?" for a negative variance."""
     variances = np.asarray(covariance).reshape(6, 6).diagonal()
     texts = [f"{np.sqrt(v):.4g}" if v >= 0 else "?" for v in variances]
     return ", ".join(f"{axis} {text}" for axis, text in zip(_AXES, texts, strict=True))

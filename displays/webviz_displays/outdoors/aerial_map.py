@@ -151,7 +151,7 @@ class AerialMap(Display):
     ] = 3.0
 
     def new_state(self) -> _State:
-        """Without tiles."""
+        """Return the state before the first tile."""
         return _State()
 
     def lookback(self, name: str) -> Lookback:

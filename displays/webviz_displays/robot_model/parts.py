@@ -1,4 +1,4 @@
-"""From a loaded robot and the user's choices to nodes on links."""
+"""Nodes on the links of a loaded robot, as the user chose them."""
 
 from __future__ import annotations
 

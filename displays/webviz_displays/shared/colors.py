@@ -1,4 +1,4 @@
-"""From numbers to colours, as RViz does it."""
+"""Colours of numbers, as RViz has them."""
 
 from __future__ import annotations
 

@@ -124,7 +124,7 @@ class Case:
         return self.system.watch(self.port, self.folder, scene, stalls)
 
     def wait_until_steady(self) -> None:
-        """Until what is published in advance is out."""
+        """Wait until the messages that are published in advance are out."""
         _line(self._publisher, "steady")
 
     def log(self) -> Log:
@@ -252,7 +252,7 @@ def wait_for(condition: Callable[[], object], otherwise: str, seconds: float) ->
 
 
 def environment() -> dict[str, str]:
-    """Of the processes of a case, on the ROS domain of this one."""
+    """Return the environment of a case's processes, on the ROS domain of this one."""
     here = Path(__file__).parents[1]
     path = [str(here), str(here.parent / "support"), os.environ.get("PYTHONPATH", "")]
     inherited = dict(os.environ)

@@ -1,4 +1,4 @@
-"""From runs to figures: medians over rounds, their spread, and ratios."""
+"""Figures of runs: medians over rounds, their spread, and ratios."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Figure:
 
     @classmethod
     def of(cls, values: Iterable[float | None]) -> Figure | None:
-        """Of the rounds that have it; None if none has."""
+        """Return the figure of the rounds that have a value; None if none has."""
         numbers = [value for value in values if value is not None]
         return cls(float(np.median(numbers)), min(numbers), max(numbers)) if numbers else None
 

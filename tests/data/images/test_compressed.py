@@ -33,7 +33,7 @@ def encoded(pixels: NDArray[np.uint8] | NDArray[np.uint16], format_: str) -> NDA
 
 
 def rvl(depths: NDArray[np.uint16]) -> bytes:
-    """As the paper has it, one number after the other."""
+    """Return the compressed image as in the paper, one number after the other."""
     nibbles: list[int] = []
 
     def put(number: int) -> None:

@@ -265,7 +265,7 @@ def test_bytes_may_come_in_any_kind_of_buffer_and_arrays_are_read_only(kind):
 
 
 def test_markers_of_texts_make_no_empty_lists_of_their_own():
-    """As there may be many thousands of them in a message."""
+    """Hold what keeps many thousands of them in a message small."""
     name = "visualization_msgs/msg/MarkerArray"
     texts = [{"type": Marker.TEXT_VIEW_FACING, "text": text} for text in ("a", "bc")]
     for content in decode(name, encode(name, {"markers": texts})).markers.contents:

@@ -154,7 +154,7 @@ def test_a_decoder_is_reused_until_its_definition_changes() -> None:
 
 
 def test_a_bridge_builds_decoders_in_its_own_thread() -> None:
-    """In its thread: it takes a second, in which the frame loop would draw nothing."""
+    """It takes a second, in which the frame loop would draw nothing."""
     text = "".join(f"int32 a{number}\n" for number in range(19_999))
     definitions = Definitions()
     assert definitions.learn("/wide", "prepared_msgs/msg/Wide", text) == ""

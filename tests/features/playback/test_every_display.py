@@ -1,4 +1,4 @@
-"""After a seek, every display there is shows what playing to the same time shows."""
+"""Seeks with every display: they show what playing to the same time shows."""
 
 from __future__ import annotations
 

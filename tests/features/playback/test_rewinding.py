@@ -108,7 +108,7 @@ def test_a_rewound_span_is_saved_after_the_memory_dropped_it(
 def test_frames_whose_transforms_ended_long_before_are_known(
     drive: Callable[..., LiveDrive], seconds: int
 ) -> None:
-    """Those of the arm ended 39 s ago, and are forgotten in a memory of 30 s."""
+    """The arm's last transforms are 39 s old, and forgotten in a memory of 30 s."""
     bag = Bag()
     for at_s in (0.5, 1.0):
         bag.transform(at_s, "base", "arm", x=at_s)
@@ -390,7 +390,7 @@ def test_playback_stops_short_of_messages_not_in_memory_yet() -> None:
 def test_a_recording_that_replaces_topics_on_the_way_back_to_now_waits_for_displays(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """On the way to now they are waited for a while only; in a recording however long it takes."""
+    """A return to now waits a while only; a recording waits however long it takes."""
     now_s = time.monotonic()
     monkeypatch.setattr("time.monotonic", lambda: now_s)
     source, memory, player = remembering()

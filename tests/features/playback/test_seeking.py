@@ -1,4 +1,4 @@
-"""After a seek the scene equals that of a straight play to the same time, node by node."""
+"""Seeks: the scene equals that of a straight play to the same time, node by node."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from webviz.engine.pipeline.runner import WORKING
 
 
 def statuses(loop: FrameLoop) -> dict[str, Mapping[str, Status]]:
-    """Those of the viewer, and of each display by its id."""
+    """Return the statuses of the viewer (""), and of each display by its id."""
     state = loop.state()
     return {"": state.statuses, **{row.id: row.statuses for row in state.rows}}
 

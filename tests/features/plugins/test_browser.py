@@ -34,7 +34,7 @@ GREEN, MAGENTA = (25, 255, 0), (255, 0, 255)
 def page(
     plugin: Any, webviz_domain: int, tmp_path: Path, browser: playwright.Browser
 ) -> Iterator[Page]:
-    """Of a viewer with the plug-in."""
+    """Open the page of a viewer with the plug-in."""
     config = tmp_path / "fence.yaml"
     config.write_text(CONFIG)
     with webviz.Viewer(config, port=0, plugins=[plugin.path]) as viewer:

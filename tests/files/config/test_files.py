@@ -227,7 +227,7 @@ def test_a_disk_that_fills_up_keeps_the_old_file(path: Path) -> None:
 
 @contextlib.contextmanager
 def without_roots_rights() -> Iterator[None]:
-    """As nobody, where the tests run as root: root may write everywhere."""
+    """Run as nobody if the tests run as root, who may write everywhere."""
     if os.geteuid() != 0:
         yield
         return

@@ -69,7 +69,7 @@ def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
 
 
 def random_places() -> NDArray[np.float64]:
-    """Over 40 m, at all heights."""
+    """Return places in a square of 40 m, at all heights."""
     return np.random.default_rng(0).uniform((-20, -20, 0), (20, 20, 5), (COUNT, 3))
 
 
@@ -211,7 +211,7 @@ def isolated_beams(scan: Any) -> NDArray[np.intp]:
 def test_clicks_on_markers_get_their_ids_texts_and_shapes_over_lines_included(
     viewer: webviz.Viewer, source: HandFedSource, page: Page
 ) -> None:
-    """From far above, where the camera of the view is, 20 cm are hardly nearer than the grid."""
+    """The camera is far above, where 20 cm are hardly nearer than the grid."""
     viewer.do(SetFixedFrame("map"))
     viewer.do(SetProperty("display4", "enabled", True))
     look = {"scale": {"x": 0.2, "y": 0.2, "z": 0.4}, "color": {"g": 1.0, "a": 1.0}}

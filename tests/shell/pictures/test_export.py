@@ -127,7 +127,7 @@ def kept_process() -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """With a bag, its config, and the file that was exported."""
+    """Return a folder with a bag, its config, and the file that was exported."""
     folder = tmp_path_factory.mktemp("export")
     recorded().write(folder / "run")
     (folder / "lab.yaml").write_text(CONFIG)

@@ -25,7 +25,7 @@ def open_viewer(bag: Path, config: Path) -> webviz.Viewer:
 
 
 def report_a_bug(page: Page) -> None:
-    """As a user does it, with two clicks on Save at once."""
+    """Report a bug as a user does, with two clicks on Save at once."""
     page.tab.get_by_role("button", name="Menu", exact=True).click()
     page.tab.get_by_role("menuitem", name="Report a bug…").click()
     dialog = page.tab.get_by_role("dialog")

@@ -47,7 +47,7 @@ class Camera:
 
     @property
     def distance(self) -> float:
-        """From the camera to its focal point, in metres."""
+        """Distance from the camera to its focal point, in metres."""
         return float(np.linalg.norm(self.position - self.look_at))
 
 

@@ -66,7 +66,7 @@ class CameraModel(msgspec.Struct, frozen=True):
 
     @staticmethod
     def whole(info: Any, otherwise: tuple[int, int] = (0, 0)) -> CameraModel:
-        """As `of`, without region of interest and binning: what the whole sensor sees.
+        """Return the camera of the whole sensor, without region of interest and binning.
 
         Raises:
             ImageError: it is not calibrated, or its numbers are invalid.
@@ -131,7 +131,7 @@ class CameraModel(msgspec.Struct, frozen=True):
         return points.reshape(rows, columns, 3)
 
     def _rays(self, rows: int, columns: int, step: int) -> tuple[F32, F32]:
-        """Of every `step`-th pixel, x and y 1 m ahead: (N,), as rows of pixels take 10 times as
+        """Return x and y of every `step`-th pixel 1 m ahead: (N,), as rows take 10 times as
         long."""
         x = ((np.arange(columns) * step - self.cx) / self.fx).astype(np.float32)
         y = ((np.arange(rows) * step - self.cy) / self.fy).astype(np.float32)

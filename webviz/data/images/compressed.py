@@ -148,7 +148,7 @@ def _chunks(data: memoryview) -> Iterator[memoryview]:
 
 
 def _header(data: NDArray[np.uint8], format_: str) -> ImageHeader:
-    """Of an image that is not too large."""
+    """Return the header of an image that is not too large."""
     header = read_header(np.ascontiguousarray(data).data)
     if header is None:
         start = bytes(data[:4]).hex(" ")

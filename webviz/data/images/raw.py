@@ -153,7 +153,7 @@ class RawImage(msgspec.Struct, frozen=True, eq=False, weakref=True):
 
     @property
     def layout(self) -> PixelLayout:
-        """Of its encoding."""
+        """Layout of the encoding's pixels."""
         return layout_of(self.encoding)
 
 

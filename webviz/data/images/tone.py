@@ -1,4 +1,4 @@
-"""From values to what a screen can show."""
+"""Brightness of values on a screen."""
 
 from __future__ import annotations
 

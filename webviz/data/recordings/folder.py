@@ -62,7 +62,7 @@ class FolderRecording:
 
     @property
     def losses(self) -> Losses:
-        """Those of the folder and of each file; reading finds more."""
+        """Losses of the folder and of each file; reading finds more."""
         within = {name: part.losses for name, part in self._files.items()}
         own_losses = [
             END_MISSING if losses.is_unfinished else f"in {name} {text}"

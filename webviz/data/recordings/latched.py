@@ -65,7 +65,7 @@ class LatchedMessages(Generic[T]):
             del self._topics[topic]
 
     def topics(self) -> tuple[str, ...]:
-        """Those that messages are kept of, sorted."""
+        """Topics whose messages are kept, sorted."""
         return tuple(sorted(self._topics))
 
     def copy(self) -> LatchedMessages[T]:

@@ -145,7 +145,7 @@ class McapIndex:
         return PREFIX.unpack(data)
 
     def _profile(self) -> str:
-        """Of the file, such as "ros2"; "" if it is damaged."""
+        """Return the profile of the file, such as "ros2"; "" if it is damaged."""
         try:
             opcode, length = self._prefix(len(MAGIC))
             if opcode != HEADER or length > MAX_RECORD:

@@ -60,7 +60,7 @@ class StaticCache:
 
     @property
     def parent(self) -> str | None:
-        """Of the sample; None only before the first insert."""
+        """Parent of the sample; None only before the first insert."""
         return self.sample[1] if self.sample else None
 
     def insert(self, stamp_ns: int, sample: ParentedPose) -> bool:
@@ -144,7 +144,7 @@ class TimeCache:
 
     @property
     def poses(self) -> deque[bytes]:
-        """As `PACKED`."""
+        """Poses, as `PACKED`."""
         self._take()
         return self._poses
 
@@ -165,7 +165,7 @@ class TimeCache:
 
     @property
     def delay_ns(self) -> int | None:
-        """From the stamp of the last transform to its reception; None if unknown."""
+        """Delay from the stamp of the last transform to its reception; None if unknown."""
         batches = self.batches
         late_ns = batches.delay_ns(self._joined, self.place) if batches is not None else None
         return self._delay_ns if late_ns is None else late_ns
@@ -207,7 +207,7 @@ class TimeCache:
 
     @property
     def parent(self) -> str | None:
-        """Of the newest sample, or None if empty."""
+        """Parent of the newest sample, or None if empty."""
         return self._parents[-1] if self._parents else None
 
     def insert(self, stamp_ns: int, sample: ParentedPose) -> bool:

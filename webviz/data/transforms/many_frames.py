@@ -53,7 +53,7 @@ class FramesIn(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, frames: list[str], rows: F64, stamps_ns: NDArray[np.int64]) -> FramesIn:
-        """From the poses as rows (7, N), NaN where there is none."""
+        """Return the frames of poses as rows (7, N), NaN where there is none."""
         return cls(frames, rows[:3].T.copy(), rows[3:].T.copy(), stamps_ns, ~np.isnan(rows[6]))
 
 

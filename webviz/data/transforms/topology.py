@@ -171,7 +171,7 @@ class Topology:
         ]
 
     def _common_times(self, newest: I64) -> I64:
-        """Per node the latest time common with the target; 0 where no link has one."""
+        """Return the latest time common with the target per node; 0 where no link has one."""
         # A stamp of 0 does not count: those of static links, and of moving ones stamped so.
         times = np.where(newest == 0, _ALWAYS, newest)
         below = times.copy()

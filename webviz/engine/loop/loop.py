@@ -359,7 +359,7 @@ class FrameLoop:
 
     @property
     def statuses(self) -> Mapping[str, Status]:
-        """Those of the viewer as a whole, as of the last `update`."""
+        """Statuses of the viewer as a whole, as of the last `update`."""
         return self.context.statuses
 
     def call(self, read: Callable[[], T]) -> Future[T]:

@@ -196,14 +196,14 @@ def _worst(row: Row) -> WorstStatus | None:
 
 
 def _rate(topic: str, traffic: Mapping[str, Traffic]) -> float | None:
-    """In Hz, as precise as it stays the same for a while; None without a subscription."""
+    """Return the rate in Hz, rounded so that it seldom changes; None without a subscription."""
     if (rates := traffic.get(topic)) is None:
         return None
     return round(rates.rate_hz) if rates.rate_hz >= 10 else round(rates.rate_hz, 1)
 
 
 def _qos(topic: Topic, offer: Offer | None) -> str:
-    """In words: what was chosen, and what "auto" became."""
+    """Return the chosen QoS in words, and what "auto" became."""
     requested = offer.requested if offer else None
     became = []
     chosen = []

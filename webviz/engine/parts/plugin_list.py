@@ -64,7 +64,7 @@ class PluginList(Generic[P]):
         return [copy.copy(item) for item in self._items.values()]
 
     def usable(self) -> dict[str, P]:
-        """Those that can be used, by id."""
+        """Usable plug-ins by id."""
         return {id: item for id, item in self._items.items() if isinstance(item, self._base)}
 
     def renew(self) -> None:

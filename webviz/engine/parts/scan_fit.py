@@ -151,7 +151,7 @@ def in_the_way(laser: complex, points: C128, way: C128) -> int:
 
 
 def thinned(points: C128, most: int) -> C128:
-    """At most so many of the points, evenly picked."""
+    """Return at most that many of the points, evenly picked."""
     if len(points) <= most:
         return points
     return points[np.linspace(0, len(points) - 1, most).astype(int)]

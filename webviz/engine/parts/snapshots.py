@@ -29,7 +29,7 @@ class Snapshot(msgspec.Struct, frozen=True):
 
     @property
     def name(self) -> str:
-        """As people see it."""
+        """Name that people see."""
         return self.content.name if self.content else str(self.values["name"])
 
 

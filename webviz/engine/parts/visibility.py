@@ -21,7 +21,7 @@ def paths(rows: Sequence[Row]) -> Iterator[tuple[Row, str]]:
 
 
 def enabled(rows: Iterable[Row]) -> Iterator[Row]:
-    """Those that are on, and not in a group that is off."""
+    """Yield the rows that are on, and not in a group that is off."""
     off: int | None = None
     for row in rows:
         if off is None or row.depth <= off:

@@ -323,7 +323,7 @@ class InputSubscription:
 
 
 def _lag(lag_ns: int) -> tuple[Measurement, ...]:
-    """By how much the transforms are behind the data."""
+    """Return how far the transforms are behind the data."""
     return (Measurement("lag", round(lag_ns / 1e9, 3), "s"),) if lag_ns else ()
 
 

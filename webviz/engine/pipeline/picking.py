@@ -1,4 +1,4 @@
-"""From what a browser picked in its picture to what a display drew."""
+"""Items of displays behind what a browser picked in its picture."""
 
 from __future__ import annotations
 

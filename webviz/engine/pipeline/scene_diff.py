@@ -208,7 +208,7 @@ class SceneDiff:
         self._scopes[scope] = after
 
     def origins(self, scope: str) -> dict[str, Position]:
-        """Of the coordinates that were sent last, by group; see `baking`."""
+        """Return the origins of the coordinates that were sent last, by group; see `baking`."""
         return {key: entry.origin for key, entry in self._scopes.get(scope, {}).items()}
 
     def remove(self, scope: str) -> None:

@@ -311,7 +311,7 @@ class BlackBoxFeature(Feature):
     def _recorder(
         self, saving: _Saving, folder: RecordingFolder, memory: MemoryHistory
     ) -> Recorder:
-        """Between two messages: what came since the rule fired is in memory."""
+        """Return the recorder, between two messages: those since the rule fired are in memory."""
         past = list(saving.past)
         past += memory.recent.after(past[-1][1].arrived_s) if past else []
         saving.recorder = Recorder(folder, memory.recorded_channels, past, saving.max_bytes)

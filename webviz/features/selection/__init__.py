@@ -86,7 +86,7 @@ class SelectionStore(PageStore, frozen=True):
 
 
 class SelectedStore(PageStore, frozen=True):
-    """By the id of each item, that of its display, and whether it moves and stays what it is."""
+    """Display of each selected item by id, and whether the item moves and stays the same."""
 
     spread: ClassVar = {"things": ""}
 
@@ -348,7 +348,7 @@ class SelectionFeature(Feature):
 
 
 def _affordable(things: Mapping[int, _Selected]) -> dict[int, _Selected]:
-    """Without those of the oldest messages that only the selection holds, if these are many."""
+    """Return the items without those of the oldest messages that only the selection holds."""
     past: dict[int, None] = {}
     for each in reversed(list(things.values())):
         if not each.runner.shows(each.item):

@@ -265,7 +265,7 @@ def _gaps(report: FrameReport) -> list[str]:
 
 
 def _age(seconds: float) -> float:
-    """To hundredths up to a second, and then to two digits."""
+    """Return an age rounded to hundredths up to a second, and then to two digits."""
     return round(seconds, 2) if abs(seconds) < 1 else float(f"{seconds:.2g}")
 
 

@@ -289,5 +289,5 @@ def static_transform_publisher(parent: str, frame: str, pose: Pose) -> str:
 
 
 def _text(value: float) -> str:
-    """To a tenth of a millimetre or of a milliradian, without a negative zero."""
+    """Return a value to a tenth of a millimetre or milliradian, without a negative zero."""
     return f"{round(value, 4) + 0.0:g}"

@@ -68,7 +68,7 @@ class Plot(Panel):
     ] = "Received"
 
     def __post_init__(self) -> None:
-        """Without values."""
+        """Begin without values."""
         self.id = ""
         self.clock = PanelTimes()
         self.playback: PlaybackState | None = None

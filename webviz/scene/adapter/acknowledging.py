@@ -24,7 +24,7 @@ class AcknowledgementRequest(wire.RunJavascriptMessage, include_in_scene_seriali
         return self.source
 
     def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
-        """As viser packs it, under the name of viser's class."""
+        """Return the message as viser packs it, under the name of viser's class."""
         return {"type": "RunJavascriptMessage", "source": self.source}
 
 

@@ -40,7 +40,7 @@ class UpdateMessage(wire.SceneNodeUpdateMessage, include_in_scene_serialization=
     def as_serializable_dict(
         self, binary_buffers: list[memoryview] | None = None
     ) -> dict[str, Any]:
-        """As viser packs it, under the name of viser's class."""
+        """Return the message as viser packs it, under the name of viser's class."""
         updates = {name: _packed(value, binary_buffers) for name, value in self.updates.items()}
         type_ = "SceneNodeUpdateMessage"
         return {"name": self.name, "updates": updates, "owner": self.owner, "type": type_}

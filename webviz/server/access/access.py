@@ -118,7 +118,7 @@ class Access:
         return not self.asks or self.by_cookie(grant.cookie) == grant
 
     def seconds_left(self, grant: Grant) -> float:
-        """Until a grant ends; infinite if it does not."""
+        """Return the seconds until a grant ends; infinite if it does not."""
         return math.inf if grant.expires is None else (grant.expires - self._now()).total_seconds()
 
     def refresh(self) -> None:

@@ -84,6 +84,6 @@ def refusal(role: Role, kind: str, command: str = "", store: str = "") -> str:
 
 
 def table() -> dict[str, str]:
-    """For pages: the label of the role that each command and message of theirs needs."""
+    """Return the label of the role that each command and message of a page needs."""
     messages = {kind: role.label for kind, role in MESSAGES.items() if role is not None}
     return messages | {name: role.label for name, role in _by_name().items()}

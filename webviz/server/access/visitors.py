@@ -1,4 +1,4 @@
-"""Those who are connected."""
+"""People who are connected."""
 
 from __future__ import annotations
 

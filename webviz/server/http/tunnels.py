@@ -125,7 +125,7 @@ def _head(context: RequestContext, *, is_head: bool) -> bytes:
 
 
 class _NoTransport(asyncio.Transport):
-    """In place of a transport that was given to another protocol."""
+    """Placeholder for a transport that was given to another protocol."""
 
     def is_closing(self) -> bool:
         """Return True."""

@@ -32,7 +32,7 @@ class File(NamedTuple):
 
 
 def factor_for(picture: Picture, width: int) -> int:
-    """By how much a picture can be made smaller for a page that shows it this wide, in pixels."""
+    """Return by how much a picture may shrink for a page that shows it this wide, in pixels."""
     if not isinstance(picture, Pixels):
         return 1
     size = picture.size

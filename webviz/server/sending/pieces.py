@@ -16,7 +16,7 @@ class Update(Protocol):
 
     @property
     def name(self) -> str:
-        """Of the node."""
+        """Name of the node."""
         ...
 
     @property
@@ -53,7 +53,7 @@ class Piece(msgspec.Struct, frozen=True):
     def as_serializable_dict(
         self, binary_buffers: list[memoryview] | None = None
     ) -> dict[str, Any]:
-        """As viser packs messages, with bytes beside them."""
+        """Return the piece as viser packs messages, with bytes beside them."""
         assert binary_buffers is not None
         binary_buffers.append(self.data)
         data = {"__binary_index": len(binary_buffers) - 1, "dtype": "|u1"}

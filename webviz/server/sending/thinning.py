@@ -63,7 +63,7 @@ class Thinning:
         self._sizes[key] = self._clock(), size
 
     def choose(self, rate: float | None) -> int:
-        """Of how many points to send one, on a link of so many bytes a second."""
+        """Return of how many points one is sent, on a link of that many bytes per second."""
         now = self._clock()
         self._sizes = {k: each for k, each in self._sizes.items() if now - each[0] < MOVING_S}
         if rate is None:

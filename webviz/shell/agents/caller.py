@@ -1,4 +1,4 @@
-"""Those who call the tools of agents, and what they may do."""
+"""Callers of the tools of agents, and what they may do."""
 
 from __future__ import annotations
 

@@ -98,7 +98,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def version() -> str:
-    """Of this package."""
+    """Return the version of this package."""
     import importlib.metadata  # here, as it takes a tenth of the time of --help
 
     return importlib.metadata.version("ros-webviz")

@@ -120,7 +120,7 @@ class ExportChunk(msgspec.Struct):
 
     @property
     def size(self) -> int:
-        """About how many bytes it has before compression."""
+        """Approximate number of bytes before compression."""
         return self.buffers.size + self.json_bytes
 
     def add_message(self, message: SceneMessage) -> None:

@@ -70,7 +70,7 @@ class BagChannel(msgspec.Struct, frozen=True):
 
     @property
     def written(self) -> RecordedChannel:
-        """As it is written to other files, in CDR."""
+        """Channel as it is written to other files, in CDR."""
         if self.conversion is None and self.layout is None and self.recorded.definition:
             return self.recorded
         is_known = type_exists(self.type)

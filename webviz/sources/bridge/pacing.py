@@ -256,7 +256,7 @@ class RateController:
 
     @property
     def late_s(self) -> float:
-        """By how much small messages are late."""
+        """Delay of small messages, in seconds."""
         return min((delay for _, delay in self._delays), default=0.0)
 
     def carried(self) -> float:

@@ -107,7 +107,7 @@ class EntriesHistory:
         return MemoryTime(self._entries, self.clock, self.live)
 
     def offers(self, subscriptions: Mapping[str, Subscription]) -> Mapping[str, Offer]:
-        """Those of the live source, which say why a topic may have no message."""
+        """Return the offers of the live source, which say why a topic may have no message."""
         live = self.live.offers()
         former, for_, offers = self._offers
         if former is not live or for_ is not subscriptions:

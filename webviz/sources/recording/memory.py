@@ -210,7 +210,7 @@ class MemoryHistory(EntriesHistory):
 
     @property
     def gap_ns(self) -> tuple[int, int] | None:
-        """From the newest message that is held to the oldest in memory, if it is older."""
+        """Gap between the newest message that is held and the oldest in memory, if there is one."""
         oldest_s = self.recent.oldest_s
         held_s = self._old_entries[-1][1].arrived_s if self._old_entries else math.inf
         if oldest_s is None or self.recent.forgotten_s <= held_s:

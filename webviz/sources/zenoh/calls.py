@@ -46,7 +46,7 @@ class PendingCall:
 
     @property
     def name(self) -> str:
-        """Of the service, or of the action that it is a part of."""
+        """Name of the service, or of the action that it is a part of."""
         return self.service.partition("/_action/")[0]
 
 

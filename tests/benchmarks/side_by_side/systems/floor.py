@@ -22,7 +22,7 @@ from side_by_side.systems.arguments import LATCHED, parsed
 from webviz.ros.types import message_class
 
 STAMP_AT = {"tf2_msgs/msg/TFMessage": 8, "std_msgs/msg/String": None}
-"""Behind the length of the list; other messages begin with it, after 4 bytes that tell the
+"""Offset of the stamp, behind the length of a list; others begin with it, after 4 bytes for the
 encoding."""
 
 
