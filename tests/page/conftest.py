@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -10,11 +10,8 @@ import playwright.sync_api as playwright
 import pytest
 from pages import COARSE
 
-from tests.page.everything import Everything
 from tests.page.page_bench import PageBench, PageServer
 from tests.page.tabs import HEIGHT, WIDTH, ViewerTab, open_page
-from webviz.api.status import Status
-from webviz.engine.state import Row
 
 TIDY = """() => {
   document.querySelectorAll("#bench").forEach((one) => one.remove());
@@ -129,17 +126,3 @@ def open_lasting_viewer_tab(
     """Open more tabs of the viewer for the tests of a module."""
     with tabs_of(browser, page_server) as open_tab:
         yield open_tab
-
-
-@pytest.fixture
-def make_row() -> Callable[..., Row]:
-    """A row with a display of every property; the name is its id unless given."""
-
-    def make_row(
-        id_: str, name: str = "", statuses: Mapping[str, Status] | None = None, **values: Any
-    ) -> Row:
-        display = Everything(name=name or id_, **values)
-        statuses = statuses or {}
-        return Row(id_, "Everything", display, display.name, statuses, enabled=display.enabled)
-
-    return make_row

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import msgspec
 
@@ -12,6 +12,7 @@ from webviz.api.declared import Color, Prop, Topic
 from webviz.api.display import Display, Input
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Status
+from webviz.engine.state import Row
 from webviz.files.config import Branch, Item
 
 QUIET = "/scan"
@@ -60,3 +61,11 @@ def named(*names: str) -> list[Everything]:
 def group(name: str, *displays: Item, enabled: bool = True) -> Branch:
     """A group with displays."""
     return Branch(DisplayGroup(name=name, enabled=enabled), list(displays))
+
+
+def make_row(
+    id_: str, name: str = "", statuses: Mapping[str, Status] | None = None, **values: Any
+) -> Row:
+    """Return a row with a display of every property; the name is its id unless given."""
+    display = Everything(name=name or id_, **values)
+    return Row(id_, "Everything", display, display.name, statuses or {}, enabled=display.enabled)

@@ -12,6 +12,7 @@ import pytest
 from msgspec.structs import replace
 from page_stores import page_store
 
+from tests.page.everything import make_row
 from tests.support.given_parts import GivenParts
 from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
@@ -38,7 +39,7 @@ def row_of(row: Row) -> dict[str, object]:
     return page_store("displays", State(rows=(row,)))[row.id]
 
 
-def test_a_row_says_its_worst_status_and_nothing_while_all_is_well(make_row: MakeRow) -> None:
+def test_a_row_says_its_worst_status_and_nothing_while_all_is_well() -> None:
     assert row_of(make_row("a", statuses=STATUSES))["line"] == "No transform."
     assert row_of(make_row("a", statuses=STATUSES))["level"] == "error"
     assert row_of(make_row("a", statuses={"Topic": STATUSES["Topic"]}))["line"] == ""
@@ -49,7 +50,7 @@ def test_a_group_names_the_display_that_has_the_problem() -> None:
     assert row_of(group)["line"] == "Front scan: No points."
 
 
-def test_a_row_offers_what_helps(make_row: MakeRow) -> None:
+def test_a_row_offers_what_helps() -> None:
     remedy = Remedy("topic.name", "/front", "Use /front")
     statuses = {"Topic": Status(Level.WARN, "No publisher.", remedy), "Later": STATUSES["Topic"]}
     fields = {"display": "a", "path": "topic.name", "value": "/front"}
@@ -59,9 +60,7 @@ def test_a_row_offers_what_helps(make_row: MakeRow) -> None:
     assert "remedy" not in row_of(make_row("a", statuses=statuses)), "it would not help yet"
 
 
-def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_everywhere(
-    make_row: MakeRow,
-) -> None:
+def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_everywhere() -> None:
     reason = Explanation(Kind.UNKNOWN_FIXED_FRAME, "Fixed frame does not exist.")
     cause = Status(Level.ERROR, reason.sentence, OtherFixedFrame("odom"), reason)
     given_up = dataclasses.replace(reason, sentence=f"{reason.sentence} 3 messages were given up.")
@@ -90,7 +89,7 @@ def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_every
     assert page_store("settings", state)["statuses"][0][3] == remedy_values
 
 
-def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:
+def test_a_row_names_the_topics_that_it_listens_to() -> None:
     assert row_of(make_row("a", topic=Topic("/front")))["topics"] == ["/front"]
     assert row_of(make_row("a", topic=Topic("")))["topics"] == []
     assert row_of(Row("a", "", None, "Gone", {}))["topics"] == []
@@ -99,16 +98,14 @@ def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:
 @pytest.mark.parametrize(
     ("hz", "rounded"), [(39.84, 40.0), (9.96, 10.0), (0.5349, 0.53), (123.4, 120.0), (0.0, 0.0)]
 )
-def test_a_rate_has_two_digits_so_that_it_changes_seldom(
-    make_row: MakeRow, hz: float, rounded: float
-) -> None:
+def test_a_rate_has_two_digits_so_that_it_changes_seldom(hz: float, rounded: float) -> None:
     state = State(rows=(make_row("a"),), traffic={"/scan": Traffic(hz, 1.0)})
     assert page_store("rate", state, "a") == {"hz": rounded}
     assert page_store("rate", state, "gone") == {}
     assert page_store("rate", replace(state, traffic={}), "a") == {}
 
 
-def test_a_topic_whose_last_message_is_repeated_is_latched(make_row: MakeRow) -> None:
+def test_a_topic_whose_last_message_is_repeated_is_latched() -> None:
     publishers = (
         Publisher("/a", "sensor_msgs/msg/LaserScan", "reliable", "transient_local"),
         Publisher("/b", "sensor_msgs/msg/LaserScan", "reliable", "volatile"),
@@ -138,7 +135,7 @@ class CountingChannel(Channel):
 
 
 def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(
-    make_row: MakeRow, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     channel, parts_bench = CountingChannel(), GivenParts()
     pages = Pages(channel, lambda command, sender: Future(), parts=parts_bench.parts)
@@ -169,7 +166,7 @@ def test_half_a_surrogate_pair_reaches_the_page_as_it_is() -> None:
     assert msgspec.json.encode(content).isascii()
 
 
-def test_of_too_many_statuses_the_worst_are_shown(make_row: MakeRow) -> None:
+def test_of_too_many_statuses_the_worst_are_shown() -> None:
     statuses = {f"frame {i}": Status(Level.OK, "fine") for i in range(500)}
     statuses["last"] = Status(Level.ERROR, "lost")
     tree_store = page_store("statuses", State(rows=(make_row("a", statuses=statuses),)), "a")

@@ -75,25 +75,22 @@ class ParameterNode:
         command.answered(response)
 
 
-@pytest.fixture
-def open_panel() -> Callable[..., tuple[Parameters, ParameterNode, Callable[[], dict[str, Any]]]]:
+def open_panel(
+    **values: tuple[int, Any],
+) -> tuple[Parameters, ParameterNode, Callable[[], dict[str, Any]]]:
     """Open the panel on a node."""
+    node, panel, ui = ParameterNode(**values), Parameters(node="/base"), RecordedUi()
+    panel.build(ui, node)
+    offer = Offer((Publisher("/base", "", "reliable", "volatile"),))
 
-    def open_(**values: tuple[int, Any]) -> Any:
-        node, panel, ui = ParameterNode(**values), Parameters(node="/base"), RecordedUi()
-        panel.build(ui, node)
-        offer = Offer((Publisher("/base", "", "reliable", "volatile"),))
+    def values_of() -> dict[str, Any]:
+        show_panel(panel, State(offers={"/parameter_events": offer}))
+        return dict(ui.widgets["1"].values["values"])
 
-        def values_of() -> dict[str, Any]:
-            show_panel(panel, State(offers={"/parameter_events": offer}))
-            return dict(ui.widgets["1"].values["values"])
-
-        return panel, node, values_of
-
-    return open_
+    return panel, node, values_of
 
 
-def test_parameters_are_shown_set_refused_and_taken_back(open_panel: Any) -> None:
+def test_parameters_are_shown_set_refused_and_taken_back() -> None:
     panel, node, values = open_panel(speed=(3, 0.5), name=(4, "x"), unset=(0, None))
     rows = {row["name"]: row for row in values()["rows"]}
     assert (rows["speed"]["text"], rows["speed"]["kind"]) == ("0.5", "double")
@@ -112,7 +109,7 @@ def test_parameters_are_shown_set_refused_and_taken_back(open_panel: Any) -> Non
         panel.use({"undo": True}, 1)
 
 
-def test_a_file_saved_by_the_panel_sets_the_parameters_it_names(open_panel: Any) -> None:
+def test_a_file_saved_by_the_panel_sets_the_parameters_it_names() -> None:
     panel, node, values = open_panel(
         **{"a.b": (2, 1), "a.c": (8, [1.0, math.inf]), "on": (1, True)}
     )
@@ -152,7 +149,9 @@ def test_a_file_saved_by_the_panel_sets_the_parameters_it_names(open_panel: Any)
     ],
 )
 def test_a_value_that_does_not_fit_is_refused(
-    open_panel: Any, kind: int, text: str, reason: str
+    kind: int,
+    text: str,
+    reason: str,
 ) -> None:
     values = {1: True, 2: 1, 3: 1.0, 7: [1], 9: ["a"]}
     panel, node, show = open_panel(x=(kind, values[kind]))
@@ -163,7 +162,7 @@ def test_a_value_that_does_not_fit_is_refused(
     assert node.values == {"x": (kind, values[kind])}
 
 
-def test_many_and_long_parameters_are_bounded(open_panel: Any) -> None:
+def test_many_and_long_parameters_are_bounded() -> None:
     _, _, values = open_panel(**{f"p{i}": (4, "x" * 10_000) for i in range(3 * MAX_PARAMETERS)})
     result = values()
     assert len(str(result)) < 400_000

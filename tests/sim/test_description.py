@@ -6,6 +6,7 @@ import pytest
 import yourdfpy
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_typestore
 
 from webviz.data.messages import FrameTransform
@@ -19,7 +20,7 @@ NUMBERS = st.floats(allow_nan=False)
 
 
 @pytest.fixture(scope="module")
-def robot(tmp_path_factory):
+def robot(tmp_path_factory: pytest.TempPathFactory) -> yourdfpy.URDF:
     """The bundled robot, read by another library, without its meshes."""
     path = tmp_path_factory.mktemp("urdf") / "robot.urdf"
     path.write_text(demo_description())
@@ -30,7 +31,7 @@ def read_cdr(raw: bytes, kind: str) -> Any:
     return STORE.deserialize_cdr(raw, kind)
 
 
-def matrix(quaternion):
+def matrix(quaternion: tuple[float, float, float, float]) -> NDArray[np.float64]:
     x, y, z, w = quaternion
     return np.array(
         [
@@ -42,7 +43,9 @@ def matrix(quaternion):
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.7, -2.5, 100.0])
-def test_joints_move_the_links_as_another_urdf_reader_moves_them(robot, angle):
+def test_joints_move_the_links_as_another_urdf_reader_moves_them(
+    robot: yourdfpy.URDF, angle: float
+) -> None:
     joints = read_joints(demo_description())
     assert [j.name for j in joints if j.kind == "continuous"] == robot.actuated_joint_names
     robot.update_cfg([angle] * len(robot.actuated_joint_names))
@@ -53,7 +56,7 @@ def test_joints_move_the_links_as_another_urdf_reader_moves_them(robot, angle):
         assert np.allclose(transform.translation, expected[:3, 3])
 
 
-def test_the_bundled_robot_is_valid_and_stands_on_the_floor(robot):
+def test_the_bundled_robot_is_valid_and_stands_on_the_floor(robot: yourdfpy.URDF) -> None:
     assert robot.validate()
     assert robot.base_link == "base_link"
     wheel = robot.get_transform("wheel_left_link")
@@ -75,7 +78,7 @@ def test_the_bundled_robot_is_valid_and_stands_on_the_floor(robot):
         max_size=4,
     )
 )
-def test_serialised_transforms_are_read_back_as_they_were(transforms):
+def test_serialised_transforms_are_read_back_as_they_were(transforms: list[FrameTransform]) -> None:
     message = read_cdr(messages.tf(transforms), "tf2_msgs/msg/TFMessage")
     assert len(message.transforms) == len(transforms)
     for read, transform in zip(message.transforms, transforms, strict=True):
@@ -86,7 +89,7 @@ def test_serialised_transforms_are_read_back_as_they_were(transforms):
         assert (turn.x, turn.y, turn.z, turn.w) == transform.rotation
 
 
-def test_a_serialised_path_is_read_back_with_poses_along_it():
+def test_a_serialised_path_is_read_back_with_poses_along_it() -> None:
     points = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]])
     raw = messages.path(points, 1_500_000_007)
     path = read_cdr(raw, "nav_msgs/msg/Path")

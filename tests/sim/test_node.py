@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,8 @@ pytestmark = [
     pytest.mark.usefixtures("webviz_domain"),
 ]
 
+Simulators = Callable[..., subprocess.Popen[str]]
+Refusals = Callable[..., tuple[object, str, str]]
 ROOT = Path(__file__).parents[2]
 STORE = get_typestore(Stores.ROS2_JAZZY)
 ODOMETRY_S = 0.02
@@ -62,11 +65,11 @@ def environment() -> dict[str, str]:
 
 
 @pytest.fixture
-def sim():
+def sim() -> Iterator[Simulators]:
     """Start the simulator in a process of its own and stop it as Ctrl-C does."""
     started = []
 
-    def start(*parameters):
+    def start(*parameters: str) -> subprocess.Popen[str]:
         ros_args = [word for parameter in parameters for word in ("-p", parameter)]
         process = subprocess.Popen(
             [sys.executable, "-m", "webviz_sim", "--ros-args", *ros_args],
@@ -88,23 +91,25 @@ def sim():
 class RobotClient(Node):
     """A node that receives what the robot publishes, and sends it commands."""
 
-    def __init__(self, context):
+    def __init__(self, context: Context) -> None:
         super().__init__("test_viewer", context=context)
         self.executor_ = SingleThreadedExecutor(context=context)
         self.executor_.add_node(self)
         self.received = {}
 
-    def listen(self, topic, kind, qos: QoSProfile | int = 10, raw=False):
+    def listen(
+        self, topic: str, kind: type[Any], qos: QoSProfile | int = 10, raw: bool = False
+    ) -> list[Any]:
         self.received[topic] = []
         self.create_subscription(kind, topic, self.received[topic].append, qos, raw=raw)
         return self.received[topic]
 
-    def listen_tf(self):
+    def listen_tf(self) -> None:
         kind = message_class("tf2_msgs/msg/TFMessage")
         self.listen("/tf", kind, 100, raw=True)
         self.listen("/tf_static", kind, LATCHED, raw=True)
 
-    def transforms(self, topic="/tf"):
+    def transforms(self, topic: str = "/tf") -> list[tuple[int, str, str, Any]]:
         """All transforms so far as (stamp in ns, parent, child, transform)."""
         results = []
         for raw in self.received[topic]:
@@ -114,24 +119,24 @@ class RobotClient(Node):
                 results.append((stamp, t.header.frame_id, t.child_frame_id, t.transform))
         return results
 
-    def pose(self, topic="/odom"):
+    def pose(self, topic: str = "/odom") -> Pose2D:
         return planar(self.received[topic][-1].pose.pose)
 
-    def spin(self, seconds):
+    def spin(self, seconds: float) -> None:
         end = time.monotonic() + seconds
         while (rest := end - time.monotonic()) > 0:
             self.executor_.spin_once(timeout_sec=rest)
 
-    def spin_until(self, condition):
+    def spin_until(self, condition: Callable[[], object]) -> None:
         until(condition, turn=lambda: self.executor_.spin_once(timeout_sec=0.05))
 
-    def drive(self, twist, seconds):
+    def drive(self, twist: Twist, seconds: float) -> None:
         """Send a velocity at 20 Hz until /odom has had it for so long, then 0."""
         publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         odometry = self.received["/odom"]
         before = len(odometry)
 
-        def is_driven():
+        def is_driven() -> bool:
             publisher.publish(twist)
             self.spin(0.05)
             new_pose = [each for each in odometry[before:] if each.twist.twist == twist]
@@ -143,7 +148,7 @@ class RobotClient(Node):
 
 
 @pytest.fixture
-def robot(webviz_domain):
+def robot(webviz_domain: int) -> Iterator[RobotClient]:
     context = Context()
     context.init(domain_id=webviz_domain)
     node = RobotClient(context)
@@ -153,27 +158,29 @@ def robot(webviz_domain):
     context.try_shutdown()
 
 
-def nanoseconds(stamp):
+def nanoseconds(stamp: Any) -> int:
     return stamp.sec * 1_000_000_000 + stamp.nanosec
 
 
-def planar(pose):
+def planar(pose: Any) -> Pose2D:
     yaw = 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
     return Pose2D(pose.position.x, pose.position.y, yaw)
 
 
-def period(messages):
+def period(messages: Sequence[Any]) -> float:
     """The usual time between stamps in seconds; a busy machine may lose single messages."""
     return np.median(np.diff([nanoseconds(m.header.stamp) for m in messages])) * 1e-9
 
 
-def twist(linear, angular):
+def twist(linear: float, angular: float) -> Twist:
     message = Twist()
     message.linear.x, message.angular.z = linear, angular
     return message
 
 
-def test_it_publishes_the_topics_of_a_turtlebot_with_nav2(sim, robot):
+def test_it_publishes_the_topics_of_a_turtlebot_with_nav2(
+    sim: Simulators, robot: RobotClient
+) -> None:
     sim("scan_beams:=180", "seed:=7")
     robot.listen_tf()
     odometry = robot.listen("/odom", Odometry)
@@ -214,7 +221,9 @@ def test_it_publishes_the_topics_of_a_turtlebot_with_nav2(sim, robot):
     assert grid.header.frame_id == "map"
 
 
-def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(sim, robot):
+def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(
+    sim: Simulators, robot: RobotClient
+) -> None:
     sim("scan_noise:=0.0", "odom_drift:=0.05")
     robot.listen_tf()
     scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
@@ -232,7 +241,7 @@ def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(sim, robo
     fixed = robot.transforms("/tf_static")
     [base_from_scan] = [t for _, _, child, t in fixed if child == "base_scan"]
 
-    def as_pose(transform):
+    def as_pose(transform: Any) -> Pose2D:
         rotation, shift = transform.rotation, transform.translation
         return Pose2D(shift.x, shift.y, 2.0 * math.atan2(rotation.z, rotation.w))
 
@@ -247,7 +256,9 @@ def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(sim, robo
     assert agree.mean() > 0.95  # rounding turns a few beams past an edge
 
 
-def test_commands_move_it_by_the_commanded_amount_and_no_farther(sim, robot):
+def test_commands_move_it_by_the_commanded_amount_and_no_farther(
+    sim: Simulators, robot: RobotClient
+) -> None:
     sim("tour:=false", "start_pose:=[0.0, 0.0, 0.0]")
     odometry = robot.listen("/odom", Odometry, 1000)
     robot.spin_until(lambda: odometry)
@@ -266,7 +277,7 @@ def test_commands_move_it_by_the_commanded_amount_and_no_farther(sim, robot):
     assert robot.pose().yaw > 0.99
 
 
-def test_a_stale_command_stops_it(sim, robot):
+def test_a_stale_command_stops_it(sim: Simulators, robot: RobotClient) -> None:
     sim("tour:=false", "stamped_cmd_vel:=true", "start_pose:=[0.0, 0.0, 0.0]")
     odometry = robot.listen("/odom", Odometry, 1000)  # as long as this process has to wait
     publisher = robot.create_publisher(TwistStamped, "/cmd_vel", 10)
@@ -277,7 +288,9 @@ def test_a_stale_command_stops_it(sim, robot):
     assert robot.pose().x == pytest.approx(0.4 * 0.5, abs=0.02)
 
 
-def test_resetting_the_odometry_moves_odom_and_not_the_robot(sim, robot):
+def test_resetting_the_odometry_moves_odom_and_not_the_robot(
+    sim: Simulators, robot: RobotClient
+) -> None:
     sim("tour:=false", "start_pose:=[1.0, 0.0, 0.0]")
     robot.listen_tf()
     odometry = robot.listen("/odom", Odometry)
@@ -292,7 +305,9 @@ def test_resetting_the_odometry_moves_odom_and_not_the_robot(sim, robot):
     assert correction.translation.x == pytest.approx(1.0 + before.x)
 
 
-def test_an_initial_pose_puts_the_robot_there_in_the_map(sim, robot):
+def test_an_initial_pose_puts_the_robot_there_in_the_map(
+    sim: Simulators, robot: RobotClient
+) -> None:
     sim("tour:=false")
     robot.listen_tf()
     odometry = robot.listen("/odom", Odometry)
@@ -303,15 +318,17 @@ def test_an_initial_pose_puts_the_robot_there_in_the_map(sim, robot):
     message.pose.pose.position.x, message.pose.pose.position.y = -4.5, 1.5
     publisher.publish(message)
 
-    def corrected():
+    def corrected() -> bool:
         results = [t for _, _, child, t in robot.transforms() if child == "odom"]
-        return results and results[-1].translation.x == pytest.approx(-4.5)
+        return bool(results) and results[-1].translation.x == pytest.approx(-4.5)
 
     robot.spin_until(corrected)
     assert robot.pose() == pytest.approx(Pose2D())
 
 
-def test_a_goal_is_planned_and_reached_and_a_bad_one_is_reported(sim, robot):
+def test_a_goal_is_planned_and_reached_and_a_bad_one_is_reported(
+    sim: Simulators, robot: RobotClient
+) -> None:
     process = sim("tour:=false", "tour_speed:=0.6", "start_pose:=[0.0, 0.0, 0.0]")
     odometry = robot.listen("/odom", Odometry)
     kind = message_class("nav_msgs/msg/Path")
@@ -333,7 +350,9 @@ def test_a_goal_is_planned_and_reached_and_a_bad_one_is_reported(sim, robot):
     assert "Ignored a /goal_pose in the frame 'nowhere': send it in map." in errors
 
 
-def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
+def test_parameters_change_while_it_runs_and_bad_ones_are_refused(
+    sim: Simulators, robot: RobotClient
+) -> None:
     from rcl_interfaces.srv import DescribeParameters, SetParameters
     from rclpy.parameter import Parameter
 
@@ -342,7 +361,7 @@ def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
     client = robot.create_client(SetParameters, "/sim/set_parameters")
     robot.spin_until(lambda: scans)
 
-    def set_parameter(name, value):
+    def set_parameter(name: str, value: Any) -> tuple[bool, str]:
         parameter = Parameter(name, value=value).to_parameter_msg()
         request = SetParameters.Request(parameters=[parameter])
         [result] = response_of(client, request, robot.executor_).results
@@ -374,7 +393,9 @@ def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
     assert len(scans[-1].ranges) == 90
 
 
-def test_a_clock_of_its_own_starts_at_zero_and_stamps_everything(sim, robot):
+def test_a_clock_of_its_own_starts_at_zero_and_stamps_everything(
+    sim: Simulators, robot: RobotClient
+) -> None:
     sim("publish_clock:=true", "scan_sweep:=true")
     clocks = robot.listen("/clock", Clock, 1000)  # none is lost while this process has to wait
     scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
@@ -386,7 +407,7 @@ def test_a_clock_of_its_own_starts_at_zero_and_stamps_everything(sim, robot):
     assert set(np.diff(stamps)) == {20_000_000}
 
 
-def test_sigterm_ends_it_with_status_0(sim, robot):
+def test_sigterm_ends_it_with_status_0(sim: Simulators, robot: RobotClient) -> None:
     process = sim()
     odometry = robot.listen("/odom", Odometry)
     robot.spin_until(lambda: odometry)
@@ -396,13 +417,13 @@ def test_sigterm_ends_it_with_status_0(sim, robot):
 
 
 @pytest.fixture
-def refusal_of(capfd):
+def refusal_of(capfd: pytest.CaptureFixture[str]) -> Iterator[Refusals]:
     """Run the simulator in this process, where it must not start."""
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
 
-    def refusal_of(*args):
+    def refusal_of(*args: str) -> tuple[object, str, str]:
         try:
-            status = main([*args])
+            status: object = main([*args])
         except SystemExit as exit:
             status = exit.code
         printed = capfd.readouterr()
@@ -414,7 +435,7 @@ def refusal_of(capfd):
         signal.signal(number, handler)
 
 
-def test_a_params_file_sets_parameters(refusal_of, tmp_path):
+def test_a_params_file_sets_parameters(refusal_of: Refusals, tmp_path: Path) -> None:
     path = tmp_path / "params.yaml"
     path.write_text("/sim:\n  ros__parameters:\n    scan_rate: 3\n    scan_beams: 0\n")
     status, _, errors = refusal_of("--ros-args", "--params-file", str(path))
@@ -436,19 +457,23 @@ def test_a_params_file_sets_parameters(refusal_of, tmp_path):
         (["--fault", "laser_yaw=9"], 2, "laser_yaw must be between -3.14159 and 3.14159"),
     ],
 )
-def test_wrong_arguments_end_in_one_sentence(refusal_of, args, status, sentence):
+def test_wrong_arguments_end_in_one_sentence(
+    refusal_of: Refusals, args: list[str], status: int, sentence: str
+) -> None:
     ended, _, errors = refusal_of(*args)
     assert ended == status
     assert sentence in errors
 
 
-def test_help_lists_the_parameters(refusal_of):
+def test_help_lists_the_parameters(refusal_of: Refusals) -> None:
     status, output, _ = refusal_of("--help")
     assert status == 0
     assert "stamped_cmd_vel" in output
 
 
-def test_a_missing_rclpy_is_explained(refusal_of, monkeypatch):
+def test_a_missing_rclpy_is_explained(
+    refusal_of: Refusals, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setitem(sys.modules, "rclpy", None)
     status, _, errors = refusal_of()
     assert status == 1

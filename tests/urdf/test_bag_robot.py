@@ -17,7 +17,7 @@ BAG = Path(__file__).parents[3] / "shared/data/bags/macfirst_floor_take_2"
 
 
 @pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
-def test_a_robot_whose_meshes_are_elsewhere_loads_and_lists_them():
+def test_a_robot_whose_meshes_are_elsewhere_loads_and_lists_them() -> None:
     with AnyReader([BAG], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
         connections = [c for c in reader.connections if c.topic == "/robot_description"]
         connection, _, data = next(reader.messages(connections))

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from robots import link_poses
+from small_robots import as_trimesh, load
 
 from webviz.api.nodes import Mesh
 from webviz_urdf import Resolver, RobotDescriptionError, load_file, load_robot
@@ -30,7 +31,7 @@ ARM = f"""<?xml version="1.0" encoding="utf-8"?>
 </robot>"""
 
 
-def test_links_joints_inertials_and_limits_are_read(load):
+def test_links_joints_inertials_and_limits_are_read() -> None:
     robot = load(ARM)
     assert (robot.name, robot.root, list(robot.links)) == ("arm", "base", ["base", "tip"])
     joint = robot.joints["turn"]
@@ -45,19 +46,19 @@ def test_links_joints_inertials_and_limits_are_read(load):
     assert not robot.warnings
 
 
-def test_shapes_of_one_name_get_names_of_their_own(load):
+def test_shapes_of_one_name_get_names_of_their_own() -> None:
     visuals = "".join(f"<visual name='{name}'>{BOX}</visual>" for name in ("a_2", "a", "a"))
     robot = load(f"<robot name='r'><link name='l'>{visuals}</link></robot>")
     assert [shape.name for shape in robot.links["l"].visuals] == ["a_2", "a", "a_2_2"]
 
 
-def test_collisions_are_loaded_only_on_request():
+def test_collisions_are_loaded_only_on_request() -> None:
     robot = load_robot(ARM, Resolver(ament_prefix_path=""), collisions=False)
     assert robot.links["tip"].collisions == ()
     assert len(robot.links["tip"].visuals) == 2
 
 
-def test_progress_counts_every_shape_up_to_the_total():
+def test_progress_counts_every_shape_up_to_the_total() -> None:
     calls = []
     load_robot(
         ARM, Resolver(ament_prefix_path=""), lambda count, total, link: calls.append((count, total))
@@ -65,19 +66,19 @@ def test_progress_counts_every_shape_up_to_the_total():
     assert calls == [(0, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
 
 
-def test_a_robot_without_a_name_loads_with_a_warning(load):
+def test_a_robot_without_a_name_loads_with_a_warning() -> None:
     robot = load("<robot><link name='l'/></robot>")
     assert robot.name == "robot"
     assert robot.warnings == ("The robot has no name.",)
 
 
-def test_names_with_unexpanded_placeholders_are_names_like_any_other(load):
+def test_names_with_unexpanded_placeholders_are_names_like_any_other() -> None:
     assert (
         load("<robot name='r'><link name='${namespace}base'/></robot>").root == "${namespace}base"
     )
 
 
-def test_comments_and_foreign_elements_anywhere_are_ignored(load):
+def test_comments_and_foreign_elements_anywhere_are_ignored() -> None:
     robot = load(
         "<!-- c --><robot name='r' xmlns:g='http://g'><!-- c --><gazebo><link name='l'/></gazebo>"
         "<link name='l'><visual><geometry><!-- c --><sphere radius='1'/></geometry></visual>"
@@ -87,7 +88,7 @@ def test_comments_and_foreign_elements_anywhere_are_ignored(load):
     assert not robot.joints
 
 
-def test_elements_with_an_undeclared_prefix_are_ignored_and_other_faults_are_not(load):
+def test_elements_with_an_undeclared_prefix_are_ignored_and_other_faults_are_not() -> None:
     robot = load(
         "<robot name='r' a:b='c'><sensor:camera name='rgb'><link name='no'/></sensor:camera>"
         f"<link name='l'><visual x:y='z'>{BOX}</visual><xacro:visual/></link></robot>"
@@ -104,21 +105,21 @@ def test_elements_with_an_undeclared_prefix_are_ignored_and_other_faults_are_not
 
 
 @pytest.mark.skipif(not FETCH.exists(), reason=f"{FETCH.name} is absent")
-def test_a_real_robot_with_an_undeclared_prefix_is_read(load):
+def test_a_real_robot_with_an_undeclared_prefix_is_read() -> None:
     robot = load(FETCH.read_text())
     assert (robot.name, len(robot.links), len(robot.joints)) == ("fetch", 25, 24)
 
 
-def test_text_after_a_nul_is_ignored(load):
+def test_text_after_a_nul_is_ignored() -> None:
     assert load(ARM + "\0</robot>").name == "arm"
 
 
 @pytest.mark.parametrize("extra", ["\n\n", "\ufeff"])
-def test_space_or_a_byte_order_mark_before_the_declaration_is_tolerated(load, extra):
+def test_space_or_a_byte_order_mark_before_the_declaration_is_tolerated(extra: str) -> None:
     assert load(extra + ARM).name == "arm"
 
 
-def test_a_visual_without_a_known_geometry_is_missing_and_the_rest_is_shown(load):
+def test_a_visual_without_a_known_geometry_is_missing_and_the_rest_is_shown() -> None:
     robot = load(
         f"<robot name='r'><link name='l'><visual>{BOX}</visual><visual/>"
         "<visual><geometry/></visual><visual><geometry><torus r='1'/></geometry></visual>"
@@ -132,7 +133,7 @@ def test_a_visual_without_a_known_geometry_is_missing_and_the_rest_is_shown(load
         assert any(word in reason for reason in reasons), word
 
 
-def test_primitives_have_their_size_and_point_outwards(load, as_trimesh):
+def test_primitives_have_their_size_and_point_outwards() -> None:
     robot = load(
         "<robot name='r'><link name='l'><visual><geometry><box size='1 2 3'/></geometry></visual>"
         "<visual><geometry><cylinder radius='1' length='3'/></geometry></visual>"
@@ -191,7 +192,9 @@ def tree(links: str, joints: str | tuple[str, ...]) -> str:
     ("text", "words"),
     [*WRONG.items(), *((tree(links, joints), words) for links, joints, words in JOINTS)],
 )
-def test_a_wrong_description_is_refused_in_one_sentence_that_names_the_place(load, text, words):
+def test_a_wrong_description_is_refused_in_one_sentence_that_names_the_place(
+    text: str, words: str
+) -> None:
     with pytest.raises(RobotDescriptionError) as excinfo:
         load(text)
     assert words in str(excinfo.value)
@@ -210,7 +213,7 @@ def entities(count: int, where: str) -> str:
 
 @pytest.mark.parametrize("where", ["attribute", "text"])
 @pytest.mark.parametrize("count", [1, 12])
-def test_entities_are_refused_before_they_grow(load, where, count):
+def test_entities_are_refused_before_they_grow(where: str, count: int) -> None:
     with pytest.raises(RobotDescriptionError):
         load(entities(count, where))
 
@@ -219,7 +222,9 @@ def test_entities_are_refused_before_they_grow(load, where, count):
     "declaration",
     ["<!ENTITY x SYSTEM '{uri}'>", "<!ENTITY % x SYSTEM '{uri}'> %x;"],
 )
-def test_external_entities_are_refused_and_their_files_not_read(load, tmp_path, declaration):
+def test_external_entities_are_refused_and_their_files_not_read(
+    tmp_path: Path, declaration: str
+) -> None:
     secret = tmp_path / "secret"
     secret.write_text("<!ENTITY leaked 'leaked'>")
     dtd = declaration.format(uri=secret.as_uri())
@@ -228,7 +233,7 @@ def test_external_entities_are_refused_and_their_files_not_read(load, tmp_path, 
     assert "leaked" not in str(excinfo.value)
 
 
-def test_an_external_dtd_is_not_read(load, tmp_path):
+def test_an_external_dtd_is_not_read(tmp_path: Path) -> None:
     dtd = tmp_path / "robot.dtd"
     dtd.write_text("<!ATTLIST robot name CDATA 'from the dtd'>")
     robot = load(f"<!DOCTYPE robot SYSTEM '{dtd.as_uri()}'><robot><link name='l'/></robot>")
@@ -244,7 +249,9 @@ JUNK = st.sampled_from(
 
 @settings(max_examples=400, deadline=None)
 @given(st.lists(st.tuples(st.integers(0, len(TOKENS) - 1), JUNK | st.text(max_size=8)), min_size=1))
-def test_any_damage_to_a_description_is_read_or_refused_in_one_line(damage):
+def test_any_damage_to_a_description_is_read_or_refused_in_one_line(
+    damage: list[tuple[int, str]],
+) -> None:
     tokens = list(TOKENS)
     for place, junk in damage:
         tokens[place] = junk
@@ -264,12 +271,12 @@ def test_any_damage_to_a_description_is_read_or_refused_in_one_line(damage):
 
 
 @given(st.text())
-def test_any_text_at_all_is_read_or_refused(text):
+def test_any_text_at_all_is_read_or_refused(text: str) -> None:
     with pytest.raises(RobotDescriptionError):
         load_robot(text, Resolver(ament_prefix_path=""))
 
 
-def test_a_file_finds_meshes_beside_it(tmp_path, as_trimesh):
+def test_a_file_finds_meshes_beside_it(tmp_path: Path) -> None:
     (tmp_path / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     path = tmp_path / "r.urdf"
     mesh = "<visual><geometry><mesh filename='m.obj'/></geometry></visual>"
@@ -278,6 +285,6 @@ def test_a_file_finds_meshes_beside_it(tmp_path, as_trimesh):
     assert as_trimesh(shape.node).extents.tolist() == [1, 1, 0]
 
 
-def test_a_file_that_is_not_there_is_named(tmp_path):
+def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(RobotDescriptionError, match=r"gone\.urdf cannot be read"):
         load_file(tmp_path / "gone.urdf")

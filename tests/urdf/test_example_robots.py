@@ -8,11 +8,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from robots import find_robots, link_poses
+from small_robots import as_trimesh
 
 from webviz import compose
 from webviz.api.nodes import Glb, Mesh
 from webviz.data.rotations import matrices
-from webviz_urdf import RobotDescriptionError, inertia_box, load_file, mass_sphere
+from webviz_urdf import Robot, RobotDescriptionError, inertia_box, load_file, mass_sphere
 
 ROBOTS = find_robots()
 FILES = sorted(str(f.relative_to(ROBOTS)) for f in ROBOTS.rglob("*.urdf")) if ROBOTS else []
@@ -22,18 +23,18 @@ pytestmark = pytest.mark.skipif(
 
 
 @functools.lru_cache(maxsize=2)
-def load(file: str):
+def load(file: str) -> Robot:
     """Load one; the last two are kept for the tests that follow."""
     assert ROBOTS is not None
     return load_file(ROBOTS / file)
 
 
-def test_there_are_69_robots():
+def test_there_are_69_robots() -> None:
     assert len(FILES) == 69
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_every_visual_is_drawn_or_reported_as_missing(file):
+def test_every_visual_is_drawn_or_reported_as_missing(file: str) -> None:
     assert ROBOTS is not None
     declared = ElementTree.parse(ROBOTS / file).getroot()
     if declared.find("link") is None:
@@ -52,7 +53,7 @@ def test_every_visual_is_drawn_or_reported_as_missing(file):
         assert (mass_sphere(link) is None) <= (inertia_box(link) is None)
 
 
-def extents(robot, as_trimesh) -> np.ndarray:
+def extents(robot: Robot) -> np.ndarray:
     """Size of the robot along x, y, z of its root, joints at zero, in metres."""
     poses = link_poses(robot)
     corners = []
@@ -77,17 +78,17 @@ def extents(robot, as_trimesh) -> np.ndarray:
         ("anymal_c_simple_description/urdf/anymal.urdf", 0.9),
     ],
 )
-def test_robots_are_as_tall_as_the_real_ones(file, height, as_trimesh):
-    assert extents(load(file), as_trimesh)[2] == pytest.approx(height, rel=0.1)
+def test_robots_are_as_tall_as_the_real_ones(file: str, height: float) -> None:
+    assert extents(load(file))[2] == pytest.approx(height, rel=0.1)
 
 
-def test_the_textures_of_anymal_are_kept():
+def test_the_textures_of_anymal_are_kept() -> None:
     robot = load("anymal_c_simple_description/urdf/anymal.urdf")
     nodes = [shape.node for link in robot.links.values() for shape in link.visuals]
     assert sum(isinstance(node, Glb) and b"image/jpeg" in node.data for node in nodes) == 45
 
 
-def test_mirrored_meshes_of_talos_are_not_inside_out(as_trimesh):
+def test_mirrored_meshes_of_talos_are_not_inside_out() -> None:
     robot = load("talos_data/robots/talos_reduced.urdf")
     right = [link for name, link in robot.links.items() if "right" in name]
     volumes = [as_trimesh(shape.node).volume for link in right for shape in link.visuals]
@@ -95,7 +96,7 @@ def test_mirrored_meshes_of_talos_are_not_inside_out(as_trimesh):
     assert min(volumes) > 0.0
 
 
-def test_materials_that_allegro_defines_in_one_link_colour_the_others():
+def test_materials_that_allegro_defines_in_one_link_colour_the_others() -> None:
     robot = load("allegro_hand_description/urdf/allegro_right_hand.urdf")
     nodes = [shape.node for link in robot.links.values() for shape in link.visuals]
     colors = [node.color for node in nodes if isinstance(node, Mesh)]

@@ -7,6 +7,7 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from webviz.api.nodes import Pose
@@ -23,7 +24,7 @@ def moments(size: tuple[float, float, float], mass: float) -> np.ndarray:
     return np.diag((y + z, x + z, x + y)) * mass / 12
 
 
-def test_the_sphere_has_the_mass_of_lead():
+def test_the_sphere_has_the_mass_of_lead() -> None:
     node = mass_sphere(link(3.0, np.eye(3), Pose((1.0, 2.0, 3.0))))
     assert node is not None
     assert node.color == (255, 0, 0)
@@ -37,7 +38,9 @@ edges = st.floats(0.1, 10)
 
 @settings(max_examples=50, deadline=None)
 @given(st.tuples(edges, edges, edges), st.floats(0.01, 100), st.tuples(*[st.floats(-3, 3)] * 6))
-def test_the_box_has_the_inertia_of_the_link_wherever_it_is_turned(size, mass, angles):
+def test_the_box_has_the_inertia_of_the_link_wherever_it_is_turned(
+    size: tuple[float, float, float], mass: float, angles: tuple[float, ...]
+) -> None:
     com = Rotation.from_euler("xyz", angles[:3])
     turned = Rotation.from_euler("xyz", angles[3:]).as_matrix()
     inertia = turned @ moments(size, mass) @ turned.T
@@ -52,7 +55,7 @@ def test_the_box_has_the_inertia_of_the_link_wherever_it_is_turned(size, mass, a
     np.testing.assert_allclose(body.moment_inertia, expected, atol=1e-3 * inertia.max())
 
 
-def test_the_box_of_a_cube_keeps_the_axes_of_the_description():
+def test_the_box_of_a_cube_keeps_the_axes_of_the_description() -> None:
     node = inertia_box(link(1.0, moments((1, 1, 1), 1.0) + np.full((3, 3), 1e-9)))
     assert node is not None
     np.testing.assert_allclose(np.abs(node.vertices), 0.5, atol=1e-6)
@@ -69,17 +72,17 @@ def test_the_box_of_a_cube_keeps_the_axes_of_the_description():
         (1e-300, np.eye(3)),
     ],
 )
-def test_impossible_inertias_are_not_drawn(mass, inertia):
+def test_impossible_inertias_are_not_drawn(mass: float, inertia: NDArray[np.float64]) -> None:
     assert inertia_box(link(mass, inertia)) is None
 
 
-def test_a_link_without_mass_has_neither():
+def test_a_link_without_mass_has_neither() -> None:
     assert mass_sphere(Link("l")) is None
     assert inertia_box(Link("l")) is None
     assert mass_sphere(link(0.0, np.eye(3))) is None
 
 
-def test_a_thin_plate_is_drawn_flat():
+def test_a_thin_plate_is_drawn_flat() -> None:
     node = inertia_box(link(1.0, moments((1, 2, 0), 1.0)))
     assert node is not None
     assert sorted(np.ptp(node.vertices, axis=0)) == pytest.approx([0, 1, 2], abs=1e-3)

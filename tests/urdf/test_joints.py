@@ -35,7 +35,7 @@ def matrix(pose: Pose) -> np.ndarray:
 
 
 @given(st.tuples(angle, angle, angle))
-def test_rpy_turns_about_fixed_axes_x_then_y_then_z(rpy):
+def test_rpy_turns_about_fixed_axes_x_then_y_then_z(rpy: tuple[float, float, float]) -> None:
     text = "<origin rpy='{} {} {}'/>".format(*rpy)
     robot = load_robot(
         f"<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>{text}"
@@ -47,11 +47,13 @@ def test_rpy_turns_about_fixed_axes_x_then_y_then_z(rpy):
 
 
 @given(st.tuples(*[angle] * 6), st.tuples(*[angle] * 6))
-def test_composing_poses_is_multiplying_their_matrices(a, b):
+def test_composing_poses_is_multiplying_their_matrices(
+    a: tuple[float, ...], b: tuple[float, ...]
+) -> None:
     poses = []
     for numbers in (a, b):
         x, y, z, w = Rotation.from_euler("xyz", numbers[3:]).as_quat().tolist()
-        poses.append(Pose(numbers[:3], (w, x, y, z)))
+        poses.append(Pose((numbers[0], numbers[1], numbers[2]), (w, x, y, z)))
     composed = matrix(compose(*poses))
     np.testing.assert_allclose(composed, matrix(poses[0]) @ matrix(poses[1]), atol=1e-9)
 
@@ -60,7 +62,9 @@ def test_composing_poses_is_multiplying_their_matrices(a, b):
     ("element", "axis"),
     [("", (1, 0, 0)), ("<axis xyz='0 2 0'/>", (0, 1, 0)), ("<axis xyz='0 0 0'/>", (0, 0, 0))],
 )
-def test_an_axis_is_x_by_default_has_length_one_and_may_be_zero(element, axis):
+def test_an_axis_is_x_by_default_has_length_one_and_may_be_zero(
+    element: str, axis: tuple[int, int, int]
+) -> None:
     assert chain(f"revolute {element}").joints["j1"].axis == axis
 
 
@@ -73,12 +77,12 @@ def test_an_axis_is_x_by_default_has_length_one_and_may_be_zero(element, axis):
         ("j2", [f"Joint 'j{i}' mimics itself, directly or through other joints." for i in (1, 2)]),
     ],
 )
-def test_a_mimic_of_no_joint_or_in_a_circle_is_a_warning(leader, warnings):
+def test_a_mimic_of_no_joint_or_in_a_circle_is_a_warning(leader: str, warnings: list[str]) -> None:
     robot = chain(
         f"prismatic <mimic joint='{leader}'/>", "prismatic <mimic joint='j1'/>", "prismatic"
     )
     assert list(robot.warnings) == warnings
 
 
-def test_a_chain_of_two_thousand_links_is_read():
+def test_a_chain_of_two_thousand_links_is_read() -> None:
     assert len(chain(*["fixed"] * 2000).links) == 2001

@@ -8,6 +8,7 @@ import os
 import pickle
 import signal
 import time
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
@@ -26,6 +27,7 @@ from webviz_urdf import (
     loading,
 )
 
+Loadings = Callable[[str], tuple[Loading, Future[Robot]]]
 BOX = (
     "<robot name='r'><link name='l'><visual><geometry><box size='1 1 1'/></geometry></visual>"
     "</link></robot>"
@@ -55,7 +57,7 @@ def processes() -> list[psutil.Process]:
 
 
 @pytest.fixture
-def start(tmp_path, monkeypatch):
+def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Loadings]:
     """Run a `Loading` in a thread; every test begins without a spare process."""
     monkeypatch.setenv("WEBVIZ_MESH_ROOT", str(tmp_path))
     loading.end_spare()
@@ -82,7 +84,9 @@ def wait_for_mesh(begun: Loading) -> psutil.Process:
     return process
 
 
-def test_a_process_gives_the_same_robot_and_is_kept_for_the_next(start, tmp_path, slow_dae):
+def test_a_process_gives_the_same_robot_and_is_kept_for_the_next(
+    start: Loadings, tmp_path: Path, slow_dae: Path
+) -> None:
     text = with_mesh(slow_dae)
     robot = start(text)[1].result(60)
     expected = load_robot(text, loading.Resolver([tmp_path]))
@@ -97,8 +101,8 @@ def test_a_process_gives_the_same_robot_and_is_kept_for_the_next(start, tmp_path
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
 def test_a_mesh_that_ends_or_halts_the_process_is_missing_and_the_rest_is_shown(
-    start, slow_dae, monkeypatch, number
-):
+    start: Loadings, slow_dae: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
     monkeypatch.setattr(loading, "DEADLINE_S", 5.0)
     begun, future = start(with_mesh(slow_dae))
     process = wait_for_mesh(begun)
@@ -110,7 +114,9 @@ def test_a_mesh_that_ends_or_halts_the_process_is_missing_and_the_rest_is_shown(
     assert ("ended the process" if number == signal.SIGKILL else "took longer") in missing.reason
 
 
-def test_a_mesh_that_needs_more_memory_than_loading_may_take_is_missing(start, tmp_path):
+def test_a_mesh_that_needs_more_memory_than_loading_may_take_is_missing(
+    start: Loadings, tmp_path: Path
+) -> None:
     bomb = {
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0]}],
@@ -127,13 +133,17 @@ def test_a_mesh_that_needs_more_memory_than_loading_may_take_is_missing(start, t
     assert robot.links["last"].visuals
 
 
-def test_a_mesh_that_needs_more_than_usual_is_loaded_with_more(start, slow_dae, monkeypatch):
+def test_a_mesh_that_needs_more_than_usual_is_loaded_with_more(
+    start: Loadings, slow_dae: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(loading, "USUAL_MEMORY", 30_000_000)
     assert not start(with_mesh(slow_dae))[1].result(60).missing
     assert processes() == []  # it would keep what it has taken
 
 
-def test_loading_waits_for_the_memory_that_it_may_take(start, slow_dae, monkeypatch):
+def test_loading_waits_for_the_memory_that_it_may_take(
+    start: Loadings, slow_dae: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(loading, "DECODING", MemoryBudget(400_000_000))
     begun, slow = start(with_mesh(slow_dae))
     process = wait_for_mesh(begun)
@@ -149,7 +159,9 @@ def test_loading_waits_for_the_memory_that_it_may_take(start, slow_dae, monkeypa
     assert last.result(60).name == "r"
 
 
-def test_a_robot_over_the_memory_budget_is_refused(start, monkeypatch):
+def test_a_robot_over_the_memory_budget_is_refused(
+    start: Loadings, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(loading, "DECODING", MemoryBudget(1_000_000_000, 0))
     with pytest.raises(
         RobotDescriptionError,
@@ -158,7 +170,7 @@ def test_a_robot_over_the_memory_budget_is_refused(start, monkeypatch):
         start(BOX)[1].result(60)
 
 
-def test_a_robot_gives_its_memory_back(start):
+def test_a_robot_gives_its_memory_back(start: Loadings) -> None:
     before = DECODING.room
     robot = start(BOX)[1].result(60)
     assert DECODING.room < before
@@ -167,20 +179,24 @@ def test_a_robot_gives_its_memory_back(start):
     assert DECODING.room >= before
 
 
-def test_a_description_that_hangs_the_process_is_refused(start, monkeypatch):
+def test_a_description_that_hangs_the_process_is_refused(
+    start: Loadings, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(loading, "START_S", 0.0)
     with pytest.raises(RobotDescriptionError, match="took longer than 0 s"):
         start(BOX)[1].result(60)
     assert processes() == []
 
 
-def test_an_invalid_description_is_reported_and_the_process_kept(start):
+def test_an_invalid_description_is_reported_and_the_process_kept(start: Loadings) -> None:
     with pytest.raises(RobotDescriptionError, match="is empty"):
         start("")[1].result(60)
     assert len(processes()) == 1
 
 
-def test_loading_that_is_stopped_ends_at_once_with_its_process(start, slow_dae):
+def test_loading_that_is_stopped_ends_at_once_with_its_process(
+    start: Loadings, slow_dae: Path
+) -> None:
     begun, future = start(with_mesh(slow_dae))
     process = wait_for_mesh(begun)
     os.kill(process.pid, signal.SIGSTOP)
@@ -190,14 +206,14 @@ def test_loading_that_is_stopped_ends_at_once_with_its_process(start, slow_dae):
     assert not process.is_running()
 
 
-def test_loading_that_was_stopped_before_it_began_never_begins(start):
+def test_loading_that_was_stopped_before_it_began_never_begins(start: Loadings) -> None:
     begun = Loading(LoadRequest(text=BOX))
     begun.stop()
     with pytest.raises(LoadingStopped):
         begun.run()
 
 
-def test_robots_are_loaded_side_by_side(start, slow_dae):
+def test_robots_are_loaded_side_by_side(start: Loadings, slow_dae: Path) -> None:
     begun, slow = start(with_mesh(slow_dae))
     process = wait_for_mesh(begun)
     process.suspend()
@@ -208,7 +224,7 @@ def test_robots_are_loaded_side_by_side(start, slow_dae):
     assert len(processes()) == 1
 
 
-def test_a_description_file_is_a_regular_file(tmp_path):
+def test_a_description_file_is_a_regular_file(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "robot.urdf")
     with pytest.raises(RobotDescriptionError, match="not a regular file"):
         Loading(LoadRequest(path=str(tmp_path / "robot.urdf"))).run()

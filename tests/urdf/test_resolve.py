@@ -17,7 +17,7 @@ def package(folder: Path, name: str, file: str = "meshes/a.stl") -> Path:
     return folder
 
 
-def test_a_package_on_the_ament_prefix_path_is_found(tmp_path):
+def test_a_package_on_the_ament_prefix_path_is_found(tmp_path: Path) -> None:
     for prefix in ("one", "two"):
         package(tmp_path / prefix / "share" / f"pkg_{prefix}", f"pkg_{prefix}")
     resolver = Resolver(ament_prefix_path=f"{tmp_path / 'one'}:{tmp_path / 'two'}")
@@ -25,26 +25,28 @@ def test_a_package_on_the_ament_prefix_path_is_found(tmp_path):
     assert result == tmp_path / "two/share/pkg_two/meshes/a.stl"
 
 
-def test_the_environment_gives_the_prefix_path_by_default(tmp_path, monkeypatch):
+def test_the_environment_gives_the_prefix_path_by_default(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     package(tmp_path / "share/pkg", "pkg")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     assert Resolver().resolve("package://pkg/meshes/a.stl").is_file()
 
 
-def test_a_package_below_a_given_root_is_found_by_its_package_xml(tmp_path):
+def test_a_package_below_a_given_root_is_found_by_its_package_xml(tmp_path: Path) -> None:
     folder = package(tmp_path / "src/repository/some_folder", "pkg")
     resolver = Resolver([tmp_path], ament_prefix_path="")
     assert resolver.resolve("package://pkg/meshes/a.stl") == folder / "meshes/a.stl"
 
 
-def test_a_given_root_wins_over_the_installed_package(tmp_path):
+def test_a_given_root_wins_over_the_installed_package(tmp_path: Path) -> None:
     package(tmp_path / "prefix/share/pkg", "installed")
     package(tmp_path / "src/pkg", "pkg")
     resolver = Resolver([tmp_path / "src"], ament_prefix_path=str(tmp_path / "prefix"))
     assert resolver.resolve("package://pkg/meshes/a.stl").read_text() == "pkg"
 
 
-def test_a_file_that_one_copy_of_a_package_lacks_is_taken_from_the_next(tmp_path):
+def test_a_file_that_one_copy_of_a_package_lacks_is_taken_from_the_next(tmp_path: Path) -> None:
     package(tmp_path / "src/pkg", "pkg")
     package(tmp_path / "prefix/share/pkg", "pkg", file="meshes/b.stl")
     resolver = Resolver([tmp_path / "src"], ament_prefix_path=str(tmp_path / "prefix"))
@@ -52,20 +54,22 @@ def test_a_file_that_one_copy_of_a_package_lacks_is_taken_from_the_next(tmp_path
 
 
 @pytest.mark.parametrize("root", ["pkg", "."])
-def test_a_folder_named_like_the_package_serves_without_a_package_xml(tmp_path, root):
+def test_a_folder_named_like_the_package_serves_without_a_package_xml(
+    tmp_path: Path, root: str
+) -> None:
     package(tmp_path / "pkg", "pkg")
     (tmp_path / "pkg/package.xml").unlink()
     resolver = Resolver([tmp_path / root], ament_prefix_path="")
     assert resolver.resolve("package://pkg/meshes/a.stl").is_file()
 
 
-def test_build_folders_are_not_searched(tmp_path):
+def test_build_folders_are_not_searched(tmp_path: Path) -> None:
     package(tmp_path / "build/pkg", "pkg")
     with pytest.raises(ResolveError, match="'pkg' is neither"):
         Resolver([tmp_path], ament_prefix_path="").resolve("package://pkg/meshes/a.stl")
 
 
-def test_a_description_in_a_file_finds_its_own_and_neighbouring_packages(tmp_path):
+def test_a_description_in_a_file_finds_its_own_and_neighbouring_packages(tmp_path: Path) -> None:
     package(tmp_path / "src/robot", "robot_pkg")
     package(tmp_path / "src/hand", "hand")
     resolver = Resolver(ament_prefix_path="").relative_to(tmp_path / "src/robot/urdf")
@@ -73,7 +77,7 @@ def test_a_description_in_a_file_finds_its_own_and_neighbouring_packages(tmp_pat
     assert resolver.resolve("package://hand/meshes/a.stl").is_file()
 
 
-def test_a_third_slash_before_the_package_is_forgiven(tmp_path):
+def test_a_third_slash_before_the_package_is_forgiven(tmp_path: Path) -> None:
     package(tmp_path / "pkg", "pkg")
     resolver = Resolver([tmp_path], ament_prefix_path="")
     assert resolver.resolve("package:///pkg/meshes/a.stl").is_file()
@@ -82,7 +86,7 @@ def test_a_third_slash_before_the_package_is_forgiven(tmp_path):
 @pytest.mark.parametrize(
     "path", ["../secret", "meshes/../../secret", "/secret", "%2e%2e/secret", "../pkg_two/meshes"]
 )
-def test_a_package_path_may_not_leave_its_package(tmp_path, path):
+def test_a_package_path_may_not_leave_its_package(tmp_path: Path, path: str) -> None:
     package(tmp_path / "pkg", "pkg")
     (tmp_path / "secret").write_text("secret")
     with pytest.raises(ResolveError, match="leaves its package"):
@@ -90,14 +94,14 @@ def test_a_package_path_may_not_leave_its_package(tmp_path, path):
 
 
 @pytest.mark.parametrize("uri", ["package://../secret", "package://./secret", "package://.."])
-def test_dots_are_not_a_package(tmp_path, uri):
+def test_dots_are_not_a_package(tmp_path: Path, uri: str) -> None:
     (tmp_path / "share").mkdir()
     (tmp_path / "secret").write_text("secret")
     with pytest.raises(ResolveError, match="neither on AMENT_PREFIX_PATH"):
         Resolver([tmp_path / "share"], ament_prefix_path=str(tmp_path)).resolve(uri)
 
 
-def test_symbolic_links_of_a_symlink_install_are_followed(tmp_path):
+def test_symbolic_links_of_a_symlink_install_are_followed(tmp_path: Path) -> None:
     source = package(tmp_path / "src/pkg", "pkg")
     share = tmp_path / "install/share"
     share.mkdir(parents=True)
@@ -108,7 +112,7 @@ def test_symbolic_links_of_a_symlink_install_are_followed(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["{}/secret", "file://{}/secret", "file://{}/pkg/../secret"])
-def test_a_file_outside_of_the_roots_is_refused_with_the_remedy(tmp_path, name):
+def test_a_file_outside_of_the_roots_is_refused_with_the_remedy(tmp_path: Path, name: str) -> None:
     package(tmp_path / "pkg", "pkg")
     (tmp_path / "secret").write_text("secret")
     resolver = Resolver([tmp_path / "pkg"], ament_prefix_path="")
@@ -121,7 +125,7 @@ def test_a_file_outside_of_the_roots_is_refused_with_the_remedy(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["package://pkg/link", "{}/pkg/link", "{}/pkg/folder/secret"])
-def test_a_symbolic_link_out_of_a_package_is_refused(tmp_path, name):
+def test_a_symbolic_link_out_of_a_package_is_refused(tmp_path: Path, name: str) -> None:
     package(tmp_path / "pkg", "pkg")
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "elsewhere/secret").write_text("secret")
@@ -131,7 +135,9 @@ def test_a_symbolic_link_out_of_a_package_is_refused(tmp_path, name):
         Resolver([tmp_path / "pkg"], ament_prefix_path="").resolve(name.format(tmp_path))
 
 
-def test_files_of_a_known_package_are_opened_and_those_of_a_strange_one_are_not(tmp_path):
+def test_files_of_a_known_package_are_opened_and_those_of_a_strange_one_are_not(
+    tmp_path: Path,
+) -> None:
     package(tmp_path / "src/pkg", "pkg")
     package(tmp_path / "src/strange", "strange")
     package(tmp_path / "prefix/share/pkg", "pkg")
@@ -141,7 +147,7 @@ def test_files_of_a_known_package_are_opened_and_those_of_a_strange_one_are_not(
         resolver.resolve(f"file://{tmp_path}/src/strange/meshes/a.stl")
 
 
-def test_a_package_path_leads_to_packages_and_to_nothing_else(tmp_path):
+def test_a_package_path_leads_to_packages_and_to_nothing_else(tmp_path: Path) -> None:
     package(tmp_path / "src/pkg", "pkg")
     (tmp_path / "src/private").mkdir()
     (tmp_path / "src/private/a.stl").touch()
@@ -153,13 +159,15 @@ def test_a_package_path_leads_to_packages_and_to_nothing_else(tmp_path):
         resolver.resolve(str(tmp_path / "src/private/a.stl"))
 
 
-def test_the_environment_gives_the_mesh_roots_by_default(tmp_path, monkeypatch):
+def test_the_environment_gives_the_mesh_roots_by_default(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "a.stl").touch()
     monkeypatch.setenv("WEBVIZ_MESH_ROOT", f"/nowhere:{tmp_path}")
     assert Resolver().resolve(str(tmp_path / "a.stl")).is_file()
 
 
-def test_a_fifo_is_neither_a_mesh_nor_the_description_of_a_package(tmp_path):
+def test_a_fifo_is_neither_a_mesh_nor_the_description_of_a_package(tmp_path: Path) -> None:
     package(tmp_path / "pkg", "pkg")
     os.mkfifo(tmp_path / "pkg/meshes/pipe.stl")
     (tmp_path / "odd").mkdir()
@@ -168,7 +176,7 @@ def test_a_fifo_is_neither_a_mesh_nor_the_description_of_a_package(tmp_path):
         Resolver([tmp_path], ament_prefix_path="").resolve("package://pkg/meshes/pipe.stl")
 
 
-def test_file_uris_and_absolute_paths_name_files_of_mesh_roots(tmp_path):
+def test_file_uris_and_absolute_paths_name_files_of_mesh_roots(tmp_path: Path) -> None:
     file = tmp_path / "with space.stl"
     file.touch()
     resolver = Resolver([tmp_path], ament_prefix_path="")
@@ -178,7 +186,7 @@ def test_file_uris_and_absolute_paths_name_files_of_mesh_roots(tmp_path):
     assert resolver.resolve(f"file://localhost{file}") == file
 
 
-def test_relative_paths_begin_at_the_description_or_nowhere(tmp_path):
+def test_relative_paths_begin_at_the_description_or_nowhere(tmp_path: Path) -> None:
     (tmp_path / "a.stl").touch()
     (tmp_path / "urdf").mkdir()
     resolver = Resolver([tmp_path], ament_prefix_path="")
@@ -201,7 +209,7 @@ def test_relative_paths_begin_at_the_description_or_nowhere(tmp_path):
         ("file://[/a", "not a usable path"),
     ],
 )
-def test_a_missing_file_is_refused_in_one_sentence(uri, words):
+def test_a_missing_file_is_refused_in_one_sentence(uri: str, words: str) -> None:
     with pytest.raises(ResolveError) as excinfo:
         Resolver(ament_prefix_path="").resolve(uri)
     assert words in str(excinfo.value)

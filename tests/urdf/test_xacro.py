@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,7 @@ def path(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def running(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def running(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
     """Take a program for the package xacro, which is what a xacro file may run."""
     monkeypatch.setenv(expanding.ALLOWED_BY, "1")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
@@ -36,7 +37,9 @@ def running(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     return run
 
 
-def test_a_xacro_file_is_refused_unless_it_is_allowed(path, running, monkeypatch):
+def test_a_xacro_file_is_refused_unless_it_is_allowed(
+    path: Path, running: Callable[[str], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
     running("open(path + '.ran', 'w'); return Text()")
     monkeypatch.delenv(expanding.ALLOWED_BY)
     with pytest.raises(RobotDescriptionError, match=r"start webviz with WEBVIZ_XACRO=1"):
@@ -44,20 +47,22 @@ def test_a_xacro_file_is_refused_unless_it_is_allowed(path, running, monkeypatch
     assert not path.with_name(f"{path.name}.ran").exists()
 
 
-def test_an_allowed_xacro_file_is_expanded(path, monkeypatch):
+def test_an_allowed_xacro_file_is_expanded(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("xacro", reason="needs xacro: pip install xacro")
     monkeypatch.setenv(expanding.ALLOWED_BY, "1")
     assert load_file(path).root == "expanded"
 
 
-def test_without_xacro_there_is_a_remedy(path, running):
+def test_without_xacro_there_is_a_remedy(path: Path, running: Callable[[str], None]) -> None:
     running("")
     (path.parent / "xacro.py").write_text("raise ImportError\n")
     with pytest.raises(RobotDescriptionError, match="pip install xacro"):
         load_file(path)
 
 
-def test_a_xacro_file_sees_no_token_and_writes_no_file(path, running, monkeypatch):
+def test_a_xacro_file_sees_no_token_and_writes_no_file(
+    path: Path, running: Callable[[str], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("WEBVIZ_TOKEN_OWN", "a secret")
     marker_file = path.with_name("written")
     running(
@@ -80,7 +85,13 @@ def test_a_xacro_file_sees_no_token_and_writes_no_file(path, running, monkeypatc
         ("raise ValueError('odd\\nvalue.')", "cannot expand .*: odd value.$"),
     ],
 )
-def test_a_xacro_file_is_bounded(path, running, monkeypatch, body, reason):
+def test_a_xacro_file_is_bounded(
+    path: Path,
+    running: Callable[[str], None],
+    monkeypatch: pytest.MonkeyPatch,
+    body: str,
+    reason: str,
+) -> None:
     late = "longer" in reason
     monkeypatch.setattr(expanding, "TIME_S", 1 if late else 20)
     monkeypatch.setattr(expanding, "MAX_BYTES", 1 << 20)
@@ -91,13 +102,13 @@ def test_a_xacro_file_is_bounded(path, running, monkeypatch, body, reason):
 
 
 @pytest.mark.parametrize("name", ["/proc/kmsg", "/proc/self/mem", "/dev/zero", "/proc/version"])
-def test_files_of_the_kernel_are_not_descriptions(name):
+def test_files_of_the_kernel_are_not_descriptions(name: str) -> None:
     if not Path(name).exists():
         pytest.skip(f"{name} is missing")
     with pytest.raises(RobotDescriptionError, match="cannot be read: "):
         load_file(name)
 
 
-def test_a_path_with_a_null_byte_is_refused_by_a_sentence():
+def test_a_path_with_a_null_byte_is_refused_by_a_sentence() -> None:
     with pytest.raises(RobotDescriptionError, match=r"is not a usable path: .*embedded null"):
         load_file("/tmp/a\0b.urdf")

@@ -31,13 +31,13 @@ CDR = b"\x00\x01\x00\x00"
 WHEEL = "=" * 80 + "\nMSG: prepared_msgs/Wheel\n{} turns\n"
 
 
-def test_types_of_displays_are_known_without_ros():
+def test_types_of_displays_are_known_without_ros() -> None:
     for name in ["map_msgs/OccupancyGridUpdate", "tf2_msgs/msg/TFMessage", *OURS]:
         assert type_exists(name)
 
 
 @pytest.mark.parametrize("name", ["nowhere_msgs/msg/Nothing", "LaserScan", "a b/msg/C", ""])
-def test_undefined_types_do_not_exist(name):
+def test_undefined_types_do_not_exist(name: str) -> None:
     assert not type_exists(name)
     for ask in (definition, type_hash, message_class):
         with pytest.raises(UnknownTypeError):
@@ -45,12 +45,12 @@ def test_undefined_types_do_not_exist(name):
 
 
 @pytest.mark.parametrize("name", OURS)
-def test_every_definition_of_ours_is_complete(name):
+def test_every_definition_of_ours_is_complete(name: str) -> None:
     register(name, definition(name))
     assert message_class(name)() is not None
 
 
-def test_the_hash_of_tf_messages_is_the_one_of_ros():
+def test_the_hash_of_tf_messages_is_the_one_of_ros() -> None:
     assert type_hash("tf2_msgs/msg/TFMessage") == (
         "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
     )
@@ -59,7 +59,7 @@ def test_the_hash_of_tf_messages_is_the_one_of_ros():
 @pytest.mark.parametrize(
     "name", ["sensor_msgs/msg/LaserScan", "visualization_msgs/msg/Marker", "std_msgs/msg/Empty"]
 )
-def test_hashes_are_those_that_ros_installs(name):
+def test_hashes_are_those_that_ros_installs(name: str) -> None:
     package, _, message = name.split("/")
     installed = Path(sys.prefix) / "share" / package / "msg" / f"{message}.json"
     if importlib.util.find_spec(package) is None or not installed.exists():
@@ -68,13 +68,13 @@ def test_hashes_are_those_that_ros_installs(name):
     assert type_hash(name) in [entry["hash_string"] for entry in hashes]
 
 
-def test_a_definition_is_msg_text_followed_by_the_types_it_holds():
+def test_a_definition_is_msg_text_followed_by_the_types_it_holds() -> None:
     own, *parts = definition("geometry_msgs/PoseStamped").split("=" * 80 + "\nMSG: ")
     assert own == "std_msgs/Header header\ngeometry_msgs/Pose pose\n"
     assert parts[0].startswith("std_msgs/Header\n")
 
 
-def test_a_registered_type_is_decoded_with_its_constants_and_the_types_it_holds():
+def test_a_registered_type_is_decoded_with_its_constants_and_the_types_it_holds() -> None:
     register(
         "test_msgs/msg/Wheel",
         "uint8 LEFT=1\nstd_msgs/Header header\nTyre[2] tyres\nint16 lambda\n"
@@ -92,7 +92,7 @@ def test_a_registered_type_is_decoded_with_its_constants_and_the_types_it_holds(
     assert peek_header("test_msgs/msg/Wheel", cdr) == ("", 1_000_000_002)
 
 
-def test_a_later_definition_replaces_an_earlier_one():
+def test_a_later_definition_replaces_an_earlier_one() -> None:
     register("test_msgs/msg/Changing", "uint8 old")
     assert decode("test_msgs/msg/Changing", CDR + b"\x07").old == 7
     register("test_msgs/msg/Changing", "std_msgs/Header header\nint8 new")
@@ -100,7 +100,7 @@ def test_a_later_definition_replaces_an_earlier_one():
     assert peek_header("test_msgs/msg/Changing", CDR + bytes(12)) == ("", 0)
 
 
-def test_a_definition_may_not_change_a_type_that_webviz_has_a_class_for():
+def test_a_definition_may_not_change_a_type_that_webviz_has_a_class_for() -> None:
     with pytest.raises(DefinitionError, match="std_msgs/msg/Header"):
         register(
             "std_msgs/msg/Header", "uint32 seq\nbuiltin_interfaces/Time stamp\nstring frame_id"
@@ -117,7 +117,7 @@ def test_a_definition_may_not_change_a_type_that_webviz_has_a_class_for():
         ("Other a\n" + "=" * 80 + "\nMSG: test_msgs/Other\nBad[] b", "cannot contain itself"),
     ],
 )
-def test_a_definition_that_cannot_be_used_changes_nothing(text, reason):
+def test_a_definition_that_cannot_be_used_changes_nothing(text: str, reason: str) -> None:
     with pytest.raises(DefinitionError, match=reason):
         register("test_msgs/msg/Bad", text)
     assert not type_exists("test_msgs/msg/Bad")

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from known_types import ROS_TYPES, TYPES, ros_classes
+from rosbags_messages import plain, random_message, rosbags_store
 
 from webviz.data.messages import (
     EncodeError,
@@ -35,12 +36,12 @@ def mapping(message: Any, store: Any) -> Any:
 
 @pytest.mark.parametrize("package", TYPES)
 def test_every_known_type_is_encoded_as_rosbags_encodes_it_and_decodes_to_itself(
-    package, rosbags_store, random_message, plain
-):
+    package: str,
+) -> None:
     for type_name, seed in product(TYPES[package], range(10)):
         message = random_message(type_name, Random(seed))
-        expected = bytes(rosbags_store.serialize_cdr(message, type_name))
-        assert encode(type_name, mapping(message, rosbags_store)) == expected, type_name
+        expected = bytes(rosbags_store().serialize_cdr(message, type_name))
+        assert encode(type_name, mapping(message, rosbags_store())) == expected, type_name
         assert encode(type_name, message) == expected, type_name
         again = encode(type_name, decode(type_name, expected))
         assert len(again) == len(expected), type_name
@@ -49,16 +50,14 @@ def test_every_known_type_is_encoded_as_rosbags_encodes_it_and_decodes_to_itself
 
 @pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")  # ROS's own imports
 @pytest.mark.parametrize("package", ROS_TYPES)
-def test_every_known_type_is_encoded_as_ros_itself_encodes_it(
-    package, rosbags_store, random_message
-):
+def test_every_known_type_is_encoded_as_ros_itself_encodes_it(package: str) -> None:
     ros = pytest.importorskip("rclpy.serialization")
     for type_name, ros_class in ros_classes(package).items():
         for seed in range(5):
             message = random_message(type_name, Random(seed))
-            cdr = bytes(rosbags_store.serialize_cdr(message, type_name))
+            cdr = bytes(rosbags_store().serialize_cdr(message, type_name))
             theirs = ros.serialize_message(ros.deserialize_message(cdr, ros_class))
-            ours = encode(type_name, mapping(message, rosbags_store))
+            ours = encode(type_name, mapping(message, rosbags_store()))
             assert_same_but_padding(ours, theirs)
             mine, other = (ros.deserialize_message(each, ros_class) for each in (ours, theirs))
             assert mine == other
@@ -114,21 +113,23 @@ def assert_same_but_padding(ours: bytes, theirs: bytes) -> None:
         ("shape_msgs/msg/SolidPrimitive", {"dimensions": [1] * 4}, "expected at most 3 elements"),
     ],
 )
-def test_an_invalid_value_is_refused_with_its_path_and_valid_values(type_name, values, words):
+def test_an_invalid_value_is_refused_with_its_path_and_valid_values(
+    type_name: str, values: dict[str, Any], words: str
+) -> None:
     with pytest.raises(EncodeError, match=re.escape(words)) as refusal:
         encode(type_name, values)
     assert str(refusal.value).startswith(type_name)
     assert str(refusal.value).endswith((".", "?"))
 
 
-def test_the_bound_of_a_string_is_enforced():
+def test_the_bound_of_a_string_is_enforced() -> None:
     register("odd_msgs/msg/Bounded", "string<=3 short")
     assert encode("odd_msgs/msg/Bounded", {"short": "abc"}).endswith(b"\4\0\0\0abc\0")
     with pytest.raises(EncodeError, match="short: expected text of at most 3 bytes, got 'four'"):
         encode("odd_msgs/msg/Bounded", {"short": "four"})
 
 
-def test_numbers_may_come_as_arrays_bytes_or_tuples():
+def test_numbers_may_come_as_arrays_bytes_or_tuples() -> None:
     data = np.arange(4, dtype=np.float64)
     assert encode(SCAN, {"ranges": data}) == encode(SCAN, {"ranges": [0, 1.0, 2, 3]})
     cloud, points = "sensor_msgs/msg/PointCloud2", [(1.0, 2.0, 3.0), (4.0, 5.0, 6.0)]
@@ -142,7 +143,7 @@ def test_numbers_may_come_as_arrays_bytes_or_tuples():
 
 
 @pytest.mark.parametrize("frame_ids", [["map"] * 5, ["map", "odom", "map"], ["base_link"], []])
-def test_poses_in_arrays_are_encoded_as_those_one_by_one(frame_ids):
+def test_poses_in_arrays_are_encoded_as_those_one_by_one(frame_ids: list[str]) -> None:
     count = len(frame_ids)
     poses = PoseStampedSequence(
         np.arange(3.0 * count).reshape(-1, 3),
@@ -159,14 +160,14 @@ def test_poses_in_arrays_are_encoded_as_those_one_by_one(frame_ids):
         assert encode(type_name, values | {"poses": several}) == one_by_one
 
 
-def test_a_type_registered_again_is_encoded_by_its_new_definition():
+def test_a_type_registered_again_is_encoded_by_its_new_definition() -> None:
     register("odd_msgs/msg/Changing", "uint8 a")
     assert encode("odd_msgs/msg/Changing", {"a": 1}) == b"\0\1\0\0\1"
     register("odd_msgs/msg/Changing", "uint16 a")
     assert encode("odd_msgs/msg/Changing", {"a": 1}) == b"\0\1\0\0\1\0"
 
 
-def test_fields_that_are_left_out_have_the_default_of_the_definition():
+def test_fields_that_are_left_out_have_the_default_of_the_definition() -> None:
     pose = decode("geometry_msgs/msg/PoseStamped", encode("geometry_msgs/msg/PoseStamped"))
     assert pose == message_class("geometry_msgs/msg/PoseStamped")()
     assert pose.pose.orientation.w == 1.0

@@ -10,6 +10,7 @@ from random import Random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rosbags_messages import plain, random_message, rosbags_store
 
 from webviz.data.messages import DecodeError, UnknownTypeError, decode, encode, peek_header
 from webviz.data.messages import cdr as cdr_module
@@ -45,7 +46,7 @@ def _decode_or_refuse(type_name: str, cdr: bytes) -> None:
 @pytest.mark.parametrize("type_name", TYPES)
 @settings(deadline=None)
 @given(cdr=st.binary(max_size=200))
-def test_random_bytes_are_decoded_or_refused(type_name, cdr):
+def test_random_bytes_are_decoded_or_refused(type_name: str, cdr: bytes) -> None:
     _decode_or_refuse(type_name, cdr)
     _decode_or_refuse(type_name, b"\x00\x01\x00\x00" + cdr)
     _decode_or_refuse(type_name, b"\x00\x00\x00\x00" + cdr)
@@ -55,28 +56,28 @@ def test_random_bytes_are_decoded_or_refused(type_name, cdr):
 @settings(deadline=None)
 @given(seed=SEEDS, where=st.floats(0, 1, exclude_max=True), byte=st.integers(0, 255))
 def test_a_message_with_a_changed_byte_is_decoded_or_refused(
-    type_name, seed, where, byte, rosbags_store, random_message
-):
+    type_name: str, seed: int, where: float, byte: int
+) -> None:
     message = random_message(type_name, Random(seed))
-    cdr = bytearray(rosbags_store.serialize_cdr(message, type_name))
+    cdr = bytearray(rosbags_store().serialize_cdr(message, type_name))
     cdr[int(where * len(cdr))] = byte
     _decode_or_refuse(type_name, bytes(cdr))
 
 
 @pytest.mark.parametrize("type_name", TYPES)
-def test_a_message_cut_off_anywhere_is_refused(type_name, rosbags_store, random_message):
+def test_a_message_cut_off_anywhere_is_refused(type_name: str) -> None:
     for seed in range(5):
         message = random_message(type_name, Random(seed))
-        cdr = bytes(rosbags_store.serialize_cdr(message, type_name))
+        cdr = bytes(rosbags_store().serialize_cdr(message, type_name))
         for length in range(len(cdr)):
             with pytest.raises(DecodeError, match=SENTENCE):
                 decode(type_name, cdr[:length])
 
 
 @pytest.mark.parametrize("type_name", TYPES)
-def test_padding_behind_a_message_is_ignored(type_name, rosbags_store, random_message, plain):
+def test_padding_behind_a_message_is_ignored(type_name: str) -> None:
     message = random_message(type_name, Random(2))
-    cdr = bytes(rosbags_store.serialize_cdr(message, type_name))
+    cdr = bytes(rosbags_store().serialize_cdr(message, type_name))
     assert plain(decode(type_name, cdr + bytes(7))) == plain(message)
 
 
@@ -94,7 +95,9 @@ def test_padding_behind_a_message_is_ignored(type_name, rosbags_store, random_me
         ("visualization_msgs/msg/MarkerArray", 0),
     ],
 )
-def test_a_length_that_lies_is_refused_without_allocating_it(type_name, before, claimed):
+def test_a_length_that_lies_is_refused_without_allocating_it(
+    type_name: str, before: int, claimed: int
+) -> None:
     header = struct.pack("<iII", 1, 2, 1) + b"\0\0\0\0"
     cdr = b"\x00\x01\x00\x00" + (header + bytes(before))[:before] + struct.pack("<I", claimed)
     cdr += bytes(200)
@@ -110,49 +113,49 @@ def test_a_length_that_lies_is_refused_without_allocating_it(type_name, before, 
     assert peak < 100_000
 
 
-def test_text_that_is_not_utf8_shows_replacement_characters():
+def test_text_that_is_not_utf8_shows_replacement_characters() -> None:
     cdr = b"\x00\x01\x00\x00\x05\x00\x00\x00M\xfcll\x00"
     assert decode("std_msgs/msg/String", cdr).data == "M\ufffdll"
 
 
-def test_a_frame_id_that_is_not_utf8_shows_replacement_characters(rosbags_store, random_message):
+def test_a_frame_id_that_is_not_utf8_shows_replacement_characters() -> None:
     message = random_message("tf2_msgs/msg/TFMessage", Random(0))
     message.transforms[0].header.frame_id = "m#p"
-    cdr = bytes(rosbags_store.serialize_cdr(message, "tf2_msgs/msg/TFMessage"))
+    cdr = bytes(rosbags_store().serialize_cdr(message, "tf2_msgs/msg/TFMessage"))
     decoded = decode("tf2_msgs/msg/TFMessage", cdr.replace(b"m#p", b"m\xe4p"))
     assert decoded.transforms[0].parent == "m\ufffdp"
 
 
 @pytest.mark.parametrize("length", [b"\x00\x00\x00\x00", b"\x01\x00\x00\x00\x00"])
-def test_an_empty_string_may_come_without_its_nul(length):
+def test_an_empty_string_may_come_without_its_nul(length: bytes) -> None:
     assert decode("std_msgs/msg/String", b"\x00\x01\x00\x00" + length).data == ""
 
 
-def test_a_string_without_its_nul_is_refused():
+def test_a_string_without_its_nul_is_refused() -> None:
     with pytest.raises(DecodeError, match="does not end in NUL"):
         decode("std_msgs/msg/String", b"\x00\x01\x00\x00\x02\x00\x00\x00hi")
 
 
 @pytest.mark.parametrize("encapsulation", ["0002", "0003", "0006", "0007", "0008", "0009", "ffff"])
-def test_other_encodings_than_plain_cdr_are_refused_by_name(encapsulation):
+def test_other_encodings_than_plain_cdr_are_refused_by_name(encapsulation: str) -> None:
     cdr = bytes.fromhex(encapsulation) + b"\x00\x00\x03\x00\x00\x00hi\x00"
     with pytest.raises(DecodeError, match=f"encapsulation 0x{encapsulation} is not plain CDR"):
         decode("std_msgs/msg/String", cdr)
 
 
-def test_a_bool_that_is_neither_0_nor_1_is_true():
+def test_a_bool_that_is_neither_0_nor_1_is_true() -> None:
     cdr = bytes.fromhex("00010000 02")
     assert decode("std_msgs/msg/Bool", cdr).data is True
 
 
 @pytest.mark.parametrize("name", ["nowhere_msgs/msg/Nothing", "String", "", "a/b/c/d", "x y/Z"])
-def test_an_unknown_type_is_named_in_one_sentence(name):
+def test_an_unknown_type_is_named_in_one_sentence(name: str) -> None:
     for read in (decode, peek_header):
         with pytest.raises(UnknownTypeError, match=re.escape(name) or "''"):
             read(name, b"\x00\x01\x00\x00\x00\x00\x00\x00")
 
 
-def test_strings_of_a_message_have_a_limit_together(monkeypatch):
+def test_strings_of_a_message_have_a_limit_together(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cdr_module, "MAX_TEXT", 2 << 20)
     name, one = "sensor_msgs/msg/JointState", "x" * (1 << 20)
     assert len(decode(name, encode(name, {"name": [one, "y"]})).name[0]) == 1 << 20
@@ -160,7 +163,7 @@ def test_strings_of_a_message_have_a_limit_together(monkeypatch):
         decode(name, encode(name, {"name": [one, one]}))
 
 
-def test_elements_of_sequences_of_objects_are_limited(monkeypatch):
+def test_elements_of_sequences_of_objects_are_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cdr_module, "MAX_ELEMENTS", 3)
     name = "sensor_msgs/msg/JointState"
     numbers = [0.0] * 100

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
 
@@ -21,16 +21,3 @@ def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
     with webviz.Viewer(port=0, source=source) as viewer:
         viewer.config = {"displays": []}
         yield viewer
-
-
-@pytest.fixture
-def refusal() -> Callable[[Callable[[], object]], str]:
-    """The one sentence with which something is refused."""
-
-    def refusal(ask: Callable[[], object]) -> str:
-        with pytest.raises(webviz.Error) as error:
-            ask()
-        assert "\n" not in str(error.value)
-        return str(error.value)
-
-    return refusal

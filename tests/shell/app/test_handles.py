@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from refusals import refusal_of
 
 import webviz
 from webviz.api.registry import display_types
 from webviz.commands import Refresh
 from webviz.shell.app.handles import DisplayHandle
 from webviz.shell.testing.source import HandFedSource
-
-Refusal = Callable[[Callable[[], object]], str]
 
 
 def names(displays: list[DisplayHandle]) -> list[str]:
@@ -47,48 +45,44 @@ def test_nested_properties_are_set_by_a_path_or_in_part(viewer: webviz.Viewer) -
     assert scan.topic == webviz.Topic("/rear", depth=3, reliability="reliable")
 
 
-def test_a_wrong_value_is_refused_and_changes_nothing(
-    viewer: webviz.Viewer, refusal: Refusal
-) -> None:
+def test_a_wrong_value_is_refused_and_changes_nothing(viewer: webviz.Viewer) -> None:
     scan = viewer.add("LaserScan")
 
     def shrink() -> None:
         scan.size = -1
 
-    assert "size: expected > 0" in refusal(shrink)
+    assert "size: expected > 0" in refusal_of(shrink)
     assert scan.size == 0.01
-    assert "size: expected > 0" in refusal(lambda: viewer.add("LaserScan", size=-1))
+    assert "size: expected > 0" in refusal_of(lambda: viewer.add("LaserScan", size=-1))
     assert len(viewer) == 1
 
 
-def test_a_typing_error_names_the_nearest_property(viewer: webviz.Viewer, refusal: Refusal) -> None:
+def test_a_typing_error_names_the_nearest_property(viewer: webviz.Viewer) -> None:
     scan = viewer.add("LaserScan")
     hint = "LaserScan has no property `siez`, did you mean `size`?"
 
     def misspell() -> None:
         scan.siez = 0.1
 
-    assert refusal(misspell) == hint
-    assert refusal(lambda: scan.siez) == hint
-    assert refusal(lambda: viewer.add("LaserScan", siez=0.1)) == hint
-    several = refusal(lambda: viewer.add("LaserScan", siez=0.1, alpha=2, topc="/scan", size=1))
+    assert refusal_of(misspell) == hint
+    assert refusal_of(lambda: scan.siez) == hint
+    assert refusal_of(lambda: viewer.add("LaserScan", siez=0.1)) == hint
+    several = refusal_of(lambda: viewer.add("LaserScan", siez=0.1, alpha=2, topc="/scan", size=1))
     assert several == (
         f"{hint} alpha: expected <= 1, got 2. "
         "LaserScan has no property `topc`, did you mean `topic`?"
     )
-    assert refusal(lambda: viewer.add("LaserScn")).endswith("did you mean `LaserScan`?")
+    assert refusal_of(lambda: viewer.add("LaserScn")).endswith("did you mean `LaserScan`?")
     assert not hasattr(scan, "siez")
 
 
-def test_attributes_that_are_not_properties_cannot_be_set(
-    viewer: webviz.Viewer, refusal: Refusal
-) -> None:
+def test_attributes_that_are_not_properties_cannot_be_set(viewer: webviz.Viewer) -> None:
     grid = viewer.add("Grid")
 
     def pretend() -> None:
         grid.status = webviz.Status(webviz.Level.OK, "fine")  # pyright: ignore
 
-    assert refusal(pretend) == "`status` of a display cannot be set."
+    assert refusal_of(pretend) == "`status` of a display cannot be set."
 
 
 @pytest.mark.parametrize("name", sorted(display_types()))
@@ -117,7 +111,7 @@ def test_a_list_that_is_changed_in_place_changes_nothing(viewer: webviz.Viewer) 
     assert tf.frames == {}
 
 
-def test_displays_are_copied_moved_and_removed(viewer: webviz.Viewer, refusal: Refusal) -> None:
+def test_displays_are_copied_moved_and_removed(viewer: webviz.Viewer) -> None:
     first, last = viewer.add("Grid", name="First"), viewer.add("Axes", name="Last")
     copy = first.duplicate()
     assert names(viewer.displays) == ["First", "First 2", "Last"]
@@ -126,12 +120,12 @@ def test_displays_are_copied_moved_and_removed(viewer: webviz.Viewer, refusal: R
     copy.remove()
     assert names(viewer.displays) == ["First", "Last"]
     gone = "This display was removed."
-    assert refusal(copy.remove) == gone
-    assert refusal(lambda: copy.name) == gone
+    assert refusal_of(copy.remove) == gone
+    assert refusal_of(lambda: copy.name) == gone
     assert repr(copy) == "<removed display>"
 
 
-def test_groups_hold_displays(viewer: webviz.Viewer, refusal: Refusal) -> None:
+def test_groups_hold_displays(viewer: webviz.Viewer) -> None:
     front = viewer.add("Group", name="Front")
     scan = viewer.add("LaserScan", group=front, name="Scan")
     grid = viewer.add("Grid", group="Front")
@@ -143,29 +137,29 @@ def test_groups_hold_displays(viewer: webviz.Viewer, refusal: Refusal) -> None:
     assert front.displays == [scan, axes, grid, inner]
     scan.move()
     assert viewer.displays[-1] == scan
-    assert refusal(lambda: front.move(group=inner)) == "Front cannot be moved into itself."
-    assert refusal(lambda: scan.move(group=grid)).startswith("Grid is not a group")
-    assert refusal(lambda: scan.move(group=inner, before=grid)) == "Grid is in another group."
-    assert refusal(lambda: viewer.add("Grid", group="Grid")).startswith("Grid is not a group")
+    assert refusal_of(lambda: front.move(group=inner)) == "Front cannot be moved into itself."
+    assert refusal_of(lambda: scan.move(group=grid)).startswith("Grid is not a group")
+    assert refusal_of(lambda: scan.move(group=inner, before=grid)) == "Grid is in another group."
+    assert refusal_of(lambda: viewer.add("Grid", group="Grid")).startswith("Grid is not a group")
     front.remove()
     assert viewer.displays == [scan]
 
 
-def test_a_name_that_several_have_is_refused(viewer: webviz.Viewer, refusal: Refusal) -> None:
+def test_a_name_that_several_have_is_refused(viewer: webviz.Viewer) -> None:
     viewer.add("Grid")
     viewer.add("Axes")
     viewer.add("Grid")
-    assert "Use the number in the list: 0 or 2" in refusal(lambda: viewer["Grid"])
-    assert "did you mean `Axes`" in refusal(lambda: viewer["Axs"])
-    assert refusal(lambda: viewer[3]) == "There is no display 3; the list has 3."
+    assert "Use the number in the list: 0 or 2" in refusal_of(lambda: viewer["Grid"])
+    assert "did you mean `Axes`" in refusal_of(lambda: viewer["Axs"])
+    assert refusal_of(lambda: viewer[3]) == "There is no display 3; the list has 3."
     assert viewer[-1].type == "Grid"
 
 
 def test_a_topic_is_shown_by_the_display_that_fits(
-    viewer: webviz.Viewer, source: HandFedSource, refusal: Refusal
+    viewer: webviz.Viewer, source: HandFedSource
 ) -> None:
-    assert refusal(viewer.add).startswith("Give the type of the display")
-    assert refusal(lambda: viewer.add(topic="/x")).startswith("No publisher on /x")
+    assert refusal_of(viewer.add).startswith("Give the type of the display")
+    assert refusal_of(lambda: viewer.add(topic="/x")).startswith("No publisher on /x")
     source.put("/rear", "sensor_msgs/msg/LaserScan", b"")
     source.put("/odd", "acme_msgs/msg/Odd", b"")
     viewer.do(Refresh())
@@ -174,13 +168,11 @@ def test_a_topic_is_shown_by_the_display_that_fits(
     assert viewer.add(topic="/odd").type == "Text"
 
 
-def test_an_invalid_entry_is_refused_with_the_reason(
-    viewer: webviz.Viewer, refusal: Refusal
-) -> None:
+def test_an_invalid_entry_is_refused_with_the_reason(viewer: webviz.Viewer) -> None:
     viewer.config = {"displays": [{"type": "Gird", "name": "Floor"}]}
     floor = viewer["Floor"]
     assert floor.type == ""
-    assert "did you mean `Grid`" in refusal(lambda: floor.cell_size)
+    assert "did you mean `Grid`" in refusal_of(lambda: floor.cell_size)
 
 
 def test_threads_may_add_displays_at_the_same_time(viewer: webviz.Viewer) -> None:

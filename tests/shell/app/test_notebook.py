@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from types import ModuleType
 
 import playwright.sync_api as playwright
 import pytest
+from refusals import refusal_of
 from serving import served_folder
 
 import webviz
@@ -35,7 +36,6 @@ REACH = """() => {
   });
 }"""
 """Sends messages to an embedded page, and returns the parts of its window that can be reached."""
-Refusal = Callable[[Callable[[], object]], str]
 
 
 @pytest.fixture
@@ -86,12 +86,10 @@ def test_a_saved_notebook_grants_at_most_watching(role: Role, tmp_path: Path) ->
     assert "?watch=" in html("http://127.0.0.1:8080/", access, True)
 
 
-def test_a_viewer_in_a_notebook_may_be_embedded_by_it(
-    monkeypatch: pytest.MonkeyPatch, refusal: Refusal
-) -> None:
+def test_a_viewer_in_a_notebook_may_be_embedded_by_it(monkeypatch: pytest.MonkeyPatch) -> None:
     assert embedders(None) == ()
     monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
     assert embedders(None) == OF_NOTEBOOKS
     assert embedders(()) == ()
     for wrong in ("http://a b", "http://a; script-src *", "a.org", "'self'"):
-        assert "is not the origin of a page" in refusal(lambda w=wrong: embedders((w,)))
+        assert "is not the origin of a page" in refusal_of(lambda w=wrong: embedders((w,)))

@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 import webviz
 from webviz.commands import AddPanel, RemovePanel, SetPanelProperty, Undo
@@ -82,8 +83,7 @@ def camera_of(viewer: webviz.Viewer) -> dict[str, Any]:
 
 
 def middle(page: Page) -> tuple[float, float]:
-    box = page.tab.locator(CANVAS).bounding_box()
-    assert box is not None
+    box = bounds(page.tab.locator(CANVAS))
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 

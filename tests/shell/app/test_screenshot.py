@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import numpy as np
 import photos
 import PIL.Image
 import pytest
+from refusals import refusal_of
 
 import webviz
 import webviz_urdf
@@ -76,12 +76,10 @@ def test_a_robot_is_loaded_before_its_picture_is_made(viewer: webviz.Viewer) -> 
 
 
 def test_invalid_screenshots_are_refused(
-    viewer: webviz.Viewer,
-    refusal: Callable[[Callable[[], object]], str],
-    monkeypatch: pytest.MonkeyPatch,
+    viewer: webviz.Viewer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert "no supported image extension" in refusal(lambda: viewer.screenshot("now.txt"))
-    assert "pixels per side" in refusal(lambda: viewer.screenshot(size=(1, 1)))
-    assert "Unknown saved view `Top`" in refusal(lambda: viewer.screenshot(view="Top"))
+    assert "no supported image extension" in refusal_of(lambda: viewer.screenshot("now.txt"))
+    assert "pixels per side" in refusal_of(lambda: viewer.screenshot(size=(1, 1)))
+    assert "Unknown saved view `Top`" in refusal_of(lambda: viewer.screenshot(view="Top"))
     monkeypatch.setenv(VARIABLE, "/no/browser")
-    assert "/no/browser" in refusal(viewer.screenshot)
+    assert "/no/browser" in refusal_of(viewer.screenshot)

@@ -12,7 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 from clouds import xyz_cloud
 from numpy.typing import NDArray
-from pages import open_pages
+from pages import bounds, open_pages
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
@@ -104,8 +104,7 @@ def numbered_cloud(xyz: NDArray[np.float64]) -> dict[str, Any]:
 
 def pixels(page: Page) -> NDArray[np.uint8]:
     """The scene at its place in the window."""
-    box = page.tab.locator("canvas").first.bounding_box()
-    assert box is not None
+    box = bounds(page.tab.locator("canvas").first)
     scene, window = page.pixels(), np.zeros((*reversed(SIZE), 3), np.uint8)
     left, top = round(box["x"]), round(box["y"])
     window[top : top + len(scene), left : left + scene.shape[1]] = scene
@@ -347,8 +346,7 @@ def on_screen(page: Page, xy: Sequence[float]) -> tuple[float, float]:
 
 def middle(page: Page) -> tuple[float, float]:
     """The middle of the scene in the window."""
-    box = page.tab.locator("canvas").first.bounding_box()
-    assert box is not None
+    box = bounds(page.tab.locator("canvas").first)
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 

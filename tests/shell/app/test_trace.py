@@ -5,11 +5,12 @@ from __future__ import annotations
 import contextlib
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import pairwise
 
 import playwright.sync_api as playwright
 import pytest
+from refusals import refusal_of
 from waiting import until
 
 import webviz
@@ -78,10 +79,8 @@ def test_a_page_that_still_loads_has_applied_nothing(viewer: webviz.Viewer) -> N
     assert list(trace.times())[-1] == "sent"
 
 
-def test_a_trace_without_browsers_is_refused_with_a_remedy(
-    viewer: webviz.Viewer, refusal: Callable[[Callable[[], object]], str]
-) -> None:
+def test_a_trace_without_browsers_is_refused_with_a_remedy(viewer: webviz.Viewer) -> None:
     plan = viewer.add("Path", topic="/plan", name="Plan")
-    assert refusal(lambda: plan.trace(timeout=0.1)) == (
+    assert refusal_of(lambda: plan.trace(timeout=0.1)) == (
         "Plan drew no new sample within 0.1 s. Check its status, and open the page in a browser."
     )

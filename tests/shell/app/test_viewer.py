@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 from processes import no_thread_left
+from refusals import refusal_of
 from waiting import until
 
 import webviz
@@ -22,8 +23,6 @@ from webviz.data.messages import encode
 from webviz.shell.testing.messages import stamped_transform
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Offer
-
-Refusal = Callable[[Callable[[], object]], str]
 
 CONFIG = """\
 fixed_frame: odom
@@ -89,24 +88,22 @@ def test_a_config_opens_in_another_frame(source: HandFedSource, tmp_path: Path) 
         assert viewer.path == str(path)
 
 
-def test_a_config_that_is_missing_is_refused(source: HandFedSource, refusal: Refusal) -> None:
-    sentence = refusal(lambda: webviz.Viewer("nowhere.yaml", port=0, source=source))
+def test_a_config_that_is_missing_is_refused(source: HandFedSource) -> None:
+    sentence = refusal_of(lambda: webviz.Viewer("nowhere.yaml", port=0, source=source))
     assert sentence == "Cannot read nowhere.yaml: No such file or directory."
 
 
-def test_a_taken_port_is_refused_and_leaves_nothing(
-    viewer: webviz.Viewer, refusal: Refusal
-) -> None:
+def test_a_taken_port_is_refused_and_leaves_nothing(viewer: webviz.Viewer) -> None:
     with no_thread_left():
-        sentence = refusal(lambda: webviz.Viewer(port=viewer.port, source=HandFedSource()))
+        sentence = refusal_of(lambda: webviz.Viewer(port=viewer.port, source=HandFedSource()))
     assert "is in use" in sentence
 
 
-def test_after_the_end_everything_is_refused(source: HandFedSource, refusal: Refusal) -> None:
+def test_after_the_end_everything_is_refused(source: HandFedSource) -> None:
     with webviz.Viewer(port=0, source=source) as viewer:
         grid = viewer["Grid"]
-    assert refusal(viewer.reset) == "The viewer is closed. Create a new one."
-    assert refusal(grid.remove) == "The viewer is closed. Create a new one."
+    assert refusal_of(viewer.reset) == "The viewer is closed. Create a new one."
+    assert refusal_of(grid.remove) == "The viewer is closed. Create a new one."
 
 
 def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
@@ -138,37 +135,39 @@ def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
     ("value", "text"), [(3, "`3`"), (None, "nothing"), (b"odom", "`b'odom'`"), (["a"], "`['a']`")]
 )
 def test_arguments_that_are_not_text_are_refused_in_one_sentence(
-    viewer: webviz.Viewer, refusal: Refusal, value: Any, text: str
+    viewer: webviz.Viewer, value: Any, text: str
 ) -> None:
     def set_frame() -> None:
         viewer.fixed_frame = value
 
     before = viewer.fixed_frame
-    assert refusal(set_frame) == f"SetFixedFrame.frame: expected text, got {text}."
-    assert refusal(lambda: viewer.remove_view(value)).startswith("RemoveView.name: expected text")
-    assert refusal(lambda: viewer.do(Load(value, "x"))).startswith("Load.text: expected text")
+    assert refusal_of(set_frame) == f"SetFixedFrame.frame: expected text, got {text}."
+    assert refusal_of(lambda: viewer.remove_view(value)).startswith(
+        "RemoveView.name: expected text"
+    )
+    assert refusal_of(lambda: viewer.do(Load(value, "x"))).startswith("Load.text: expected text")
     assert viewer.fixed_frame == before
 
 
 @pytest.mark.parametrize(("value", "text"), [([1], "`[1]`"), (None, "nothing"), (3, "`3`")])
 def test_arguments_that_are_not_paths_are_refused_in_one_sentence(
-    viewer: webviz.Viewer, refusal: Refusal, value: Any, text: str
+    viewer: webviz.Viewer, value: Any, text: str
 ) -> None:
     for method in (viewer.open, viewer.save, viewer.open_recording):
-        assert refusal(lambda method=method: method(value)) == (
+        assert refusal_of(lambda method=method: method(value)) == (
             f"path: expected a path, got {text}."
         )
-    assert refusal(lambda: viewer.record(value)) == f"folder: expected a path, got {text}."
+    assert refusal_of(lambda: viewer.record(value)) == f"folder: expected a path, got {text}."
 
 
 @pytest.mark.parametrize("value", [[1], b"a", {}])
 def test_arguments_that_are_not_numbers_are_refused_in_one_sentence(
-    viewer: webviz.Viewer, refusal: Refusal, value: Any
+    viewer: webviz.Viewer, value: Any
 ) -> None:
     sentence = f"expected a number, got `{value}`."
-    assert refusal(lambda: viewer.play(value)) == f"rate: {sentence}"
-    assert refusal(lambda: viewer.rewind(value)) == f"seconds: {sentence}"
-    assert refusal(lambda: viewer.save_last(value)) == f"seconds: {sentence}"
+    assert refusal_of(lambda: viewer.play(value)) == f"rate: {sentence}"
+    assert refusal_of(lambda: viewer.rewind(value)) == f"seconds: {sentence}"
+    assert refusal_of(lambda: viewer.save_last(value)) == f"seconds: {sentence}"
 
 
 def test_waiting_ends_with_stop(viewer: webviz.Viewer) -> None:
@@ -179,7 +178,7 @@ def test_waiting_ends_with_stop(viewer: webviz.Viewer) -> None:
     assert not waiting.is_alive()
 
 
-def test_global_options_are_set_and_checked(viewer: webviz.Viewer, refusal: Refusal) -> None:
+def test_global_options_are_set_and_checked(viewer: webviz.Viewer) -> None:
     viewer.fixed_frame = "odom"
     viewer.background = (1, 2, 3)
     viewer.frame_rate = 20.0
@@ -188,7 +187,7 @@ def test_global_options_are_set_and_checked(viewer: webviz.Viewer, refusal: Refu
     def make_it_too_bright() -> None:
         viewer.background = (1, 2, 300)
 
-    assert "background[2]" in refusal(make_it_too_bright)
+    assert "background[2]" in refusal_of(make_it_too_bright)
     assert viewer.background == (1, 2, 3)
 
 
@@ -215,10 +214,8 @@ def test_time_stands_still_while_paused(viewer: webviz.Viewer, source: HandFedSo
     assert viewer.state.clock.ros_ns == source.now
 
 
-def test_a_config_is_saved_changed_and_opened_again(
-    viewer: webviz.Viewer, tmp_path: Path, refusal: Refusal
-) -> None:
-    assert refusal(viewer.save) == "This config has no file yet. Choose a name."
+def test_a_config_is_saved_changed_and_opened_again(viewer: webviz.Viewer, tmp_path: Path) -> None:
+    assert refusal_of(viewer.save) == "This config has no file yet. Choose a name."
     viewer.add("Grid", name="Floor")
     path = tmp_path / "floor.yaml"
     assert viewer.save(path) == path
@@ -233,15 +230,13 @@ def test_a_config_is_saved_changed_and_opened_again(
     assert "cell_size: 3.0" in path.read_text()
 
 
-def test_a_failed_opening_changes_nothing(
-    viewer: webviz.Viewer, tmp_path: Path, refusal: Refusal
-) -> None:
+def test_a_failed_opening_changes_nothing(viewer: webviz.Viewer, tmp_path: Path) -> None:
     viewer.add("Grid")
-    assert "No such file" in refusal(lambda: viewer.open(tmp_path / "no.yaml"))
+    assert "No such file" in refusal_of(lambda: viewer.open(tmp_path / "no.yaml"))
     assert "Grid" in viewer
 
 
-def test_the_config_is_values_and_text(viewer: webviz.Viewer, refusal: Refusal) -> None:
+def test_the_config_is_values_and_text(viewer: webviz.Viewer) -> None:
     viewer.config = CONFIG
     assert viewer.config["displays"] == [{"type": "Grid", "name": "Floor"}]
     assert "fixed_frame: odom" in viewer.config_text
@@ -251,7 +246,7 @@ def test_the_config_is_values_and_text(viewer: webviz.Viewer, refusal: Refusal) 
     def set_nonsense() -> None:
         viewer.config = {"fixed_frme": "map"}
 
-    assert "did you mean `fixed_frame`" in refusal(set_nonsense)
+    assert "did you mean `fixed_frame`" in refusal_of(set_nonsense)
     assert [display.type for display in viewer] == ["Axes"]
 
 
@@ -265,7 +260,7 @@ def test_a_display_of_a_plug_in_can_be_added(source: HandFedSource, tmp_path: Pa
         registry.register(str(plugin), {})
 
 
-def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refusal: Refusal) -> None:
+def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer) -> None:
     above = {"type": "TopDownOrtho", "scale": 50.0}
     viewer.save_view("Above", above)
     viewer.view = {"distance": 3.0}
@@ -277,15 +272,15 @@ def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refusal:
     def look(view: object) -> Callable[[], None]:
         return lambda: setattr(viewer, "view", view)
 
-    assert "did you mean `Above`" in refusal(look("Abve"))
-    assert refusal(look({"type": "Orbit", "distance": -1})).startswith(
+    assert "did you mean `Above`" in refusal_of(look("Abve"))
+    assert refusal_of(look({"type": "Orbit", "distance": -1})).startswith(
         "Invalid view: distance: expected > 0, got -1."
     )
-    assert refusal(look({"type": "TopDown"})) == (
+    assert refusal_of(look({"type": "TopDown"})) == (
         "Invalid view: type: "
         "expected Orbit, XYOrbit, ThirdPersonFollower, FPS, FrameAligned or TopDownOrtho, "
         "got `TopDown`."
     )
     viewer.remove_view("Above")
     assert viewer.views == {}
-    assert refusal(lambda: viewer.save_view("Here")).startswith("No browser is connected")
+    assert refusal_of(lambda: viewer.save_view("Here")).startswith("No browser is connected")
