@@ -33,7 +33,7 @@ class ServerGoal:
         request: its values.
     """
 
-    def __init__(self, server: "ActionServer", info: GoalInfo, request: Any):
+    def __init__(self, server: "ActionServer", info: GoalInfo, request: Any) -> None:
         self._server = server
         self.info = info
         self.request = request
@@ -85,7 +85,7 @@ class ActionServer:
         type: str,
         accept: Callable[[Any], bool],
         begin: Callable[[ServerGoal], None],
-    ):
+    ) -> None:
         self._node = node
         self._parts = interfaces.action(type)
         self._accept, self._begin = accept, begin

@@ -33,7 +33,7 @@ class Broadcaster:
 
     def __init__(
         self, outputs: SimPublishers, simulation: Simulation, values: dict[str, Any], now: int
-    ):
+    ) -> None:
         """Create the publishers and publish the latched messages.
 
         Args:
@@ -179,7 +179,7 @@ class Broadcaster:
 class _Schedule:
     """Schedule of an event that repeats at a rate, in simulated seconds."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._next = 0.0
 
     def __call__(self, now: float, rate: float) -> bool:

@@ -21,7 +21,7 @@ class Crowd:
         seed: chooses their ways.
     """
 
-    def __init__(self, planner: Planner, start: Pose2D, count: int, seed: int):
+    def __init__(self, planner: Planner, start: Pose2D, count: int, seed: int) -> None:
         self._planner = planner
         self._random = np.random.default_rng([seed, 2])
         self._places = planner.spread(start, count=12) if count else []

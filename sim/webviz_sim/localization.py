@@ -49,7 +49,7 @@ class Amcl(Perfect):
         seed: Of its errors.
     """
 
-    def __init__(self, outputs: SimPublishers, truth: Pose2D, seed: int):
+    def __init__(self, outputs: SimPublishers, truth: Pose2D, seed: int) -> None:
         self.pose = self._truth = truth
         self._random = np.random.default_rng([seed, 3])
         self._error = Pose2D()
@@ -98,7 +98,7 @@ class Slam(Perfect):
         publisher: Of the map.
     """
 
-    def __init__(self, world: World, publisher: SimPublisher):
+    def __init__(self, world: World, publisher: SimPublisher) -> None:
         self._world = world
         self._publisher = publisher
         self._cells = np.full_like(world.cells, UNKNOWN)

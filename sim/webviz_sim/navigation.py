@@ -41,7 +41,7 @@ class Lifecycle:
         left: Called when it stops being active.
     """
 
-    def __init__(self, node: Node, left: Callable[[], None]):
+    def __init__(self, node: Node, left: Callable[[], None]) -> None:
         self._state = "active"
         self._left = left
         manage = service_class(MANAGE)
@@ -114,7 +114,7 @@ class Navigation:
         simulation: Drives the robot.
     """
 
-    def __init__(self, node: Node, simulation: Simulation):
+    def __init__(self, node: Node, simulation: Simulation) -> None:
         self._simulation = simulation
         self._task: _Task | None = None
         self._lifecycle = Lifecycle(node, self._stop)

@@ -30,7 +30,7 @@ Cell = tuple[int, int]
 class Planner:
     """Plans in one world."""
 
-    def __init__(self, world: World):
+    def __init__(self, world: World) -> None:
         self._world = world
         self._stride = max(1, round(CELL / world.resolution))
         reach = math.ceil(COMFORT / world.resolution) + 1

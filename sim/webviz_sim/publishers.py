@@ -35,7 +35,7 @@ class RosPublishers:
         node: Publishes.
     """
 
-    def __init__(self, node: Any):
+    def __init__(self, node: Any) -> None:
         self._node = node
 
     def publisher(

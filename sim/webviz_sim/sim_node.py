@@ -28,7 +28,7 @@ from webviz_sim.world import WorldError, load_world
 class SimNode(Node):
     """Steps a simulation, publishes what a real robot would, and receives commands."""
 
-    def __init__(self, start: int, fleet: Sequence["SimNode"] = (), namespace: str = ""):
+    def __init__(self, start: int, fleet: Sequence["SimNode"] = (), namespace: str = "") -> None:
         """Create the node and publish the latched messages.
 
         Args:

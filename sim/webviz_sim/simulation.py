@@ -29,7 +29,7 @@ class Follower:
     2 sin(heading error) / distance. Velocities change no faster than a small robot's do.
     """
 
-    def __init__(self, path: NDArray[np.float64], yaw: float | None = None):
+    def __init__(self, path: NDArray[np.float64], yaw: float | None = None) -> None:
         """Start at the beginning of the path.
 
         Args:
@@ -138,7 +138,7 @@ class Simulation:
         start: Pose2D | None = None,
         seed: int = 0,
         obstacles: int = 0,
-    ):
+    ) -> None:
         """Put the robot into the world.
 
         Args:

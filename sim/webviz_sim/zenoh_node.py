@@ -43,7 +43,7 @@ class ZenohSim:
         namespace: str,
         values: dict[str, Any],
         fleet: Sequence["ZenohSim"] = (),
-    ):
+    ) -> None:
         self._values = values
         self._node = ZenohNode(session, domain, namespace, "sim")
         self._commands: queue.Queue[tuple[Callable[[Any], None], str, bytes]] = queue.Queue()

@@ -49,7 +49,7 @@ class ZenohTopicPublisher:
         gid: Its identity, 16 bytes.
     """
 
-    def __init__(self, declared: Any, gid: bytes):
+    def __init__(self, declared: Any, gid: bytes) -> None:
         self._declared = declared
         self._gid = gid
         self._sequence = 0
@@ -71,7 +71,7 @@ class ZenohNode:
         name: Of the node.
     """
 
-    def __init__(self, session: zenoh.Session, domain: int, namespace: str, name: str):
+    def __init__(self, session: zenoh.Session, domain: int, namespace: str, name: str) -> None:
         self._session = session
         self._domain = domain
         self._namespace = namespace

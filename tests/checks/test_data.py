@@ -55,7 +55,9 @@ def examined(stage: Harness, level: CauseLevel = CauseLevel.DATA) -> dict[str, F
         ("DATA004", HERE, {"ranges": np.full(360, 2.0, np.float32)}),
     ],
 )
-def test_scans_beside_the_map(webviz_harness: Make, id: str, pose: Pose2D, scan: Any) -> None:
+def test_scans_beside_the_map(
+    webviz_harness: Make, id: str, pose: Pose2D, scan: dict[str, Any] | None
+) -> None:
     stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
     look(stage, pose, scan and building.scan(HERE) | scan)
     findings = examined(stage)

@@ -40,14 +40,15 @@ class Stage:
     """An image display at work, with images and detections at seconds of its time."""
 
     def __init__(self, bench: Benches, **values: Any) -> None:
-        self.at = bench(Image(annotations_topic=Topic("/found"), **values))
+        self.display = Image(annotations_topic=Topic("/found"), **values)
+        self.at = bench(self.display)
         self.start_ns = self.at.now_ns
 
     def image(self, second: float) -> None:
         self._send(photos.RAW, photos.raw(PIXELS, "rgb8"), "/camera/image_raw", second)
 
     def detect(self, second: float, *detections: dict[str, Any]) -> None:
-        topic = self.at.runner.display.annotations_topic.name
+        topic = self.display.annotations_topic.name
         self._send(DETECTIONS, {"detections": list(detections)}, topic, second)
 
     def annotate(self, **values: Any) -> None:

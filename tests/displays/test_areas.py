@@ -61,7 +61,7 @@ def test_an_invalid_polygon_has_a_status(
 def test_former_polygons_stay(turned: Benches) -> None:
     lines = [polygon((0, 0, 0), (x, 0, 0)) for x in (1.0, 2.0, 3.0)]
     at = turned(Polygon(history_length=2), *lines)
-    spans = [np.ptp(node.segments, axis=(0, 1)).max() for _, _, node in at.scene.visible()]
+    spans = [np.ptp(node.segments, axis=(0, 1)).max() for node in at.nodes().values()]
     assert sorted(spans) == [2.0, 3.0]
 
 

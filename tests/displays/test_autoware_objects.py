@@ -28,7 +28,7 @@ from built_in_checks import BuiltInChecks
 from inspecting import Benches
 from plain_scenes import in_moving_frame
 
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.autoware import DetectedObjects, PredictedObjects, TrackedObjects, objects
 from webviz_displays.autoware.objects_look import (
     ClassColors,
@@ -43,7 +43,7 @@ from webviz_displays.autoware.objects_look import (
 NAN = math.nan
 
 
-def edges_of(at: Any, number: int, key: str = "shapes") -> np.ndarray:
+def edges_of(at: DisplayBench, number: int, key: str = "shapes") -> np.ndarray:
     """The lines of an object in the fixed frame."""
     return at.xyz(key)[at.nodes()[key].ids == number]
 

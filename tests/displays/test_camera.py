@@ -20,6 +20,7 @@ from webviz.engine.parts.visibility import hidden_in, names
 from webviz.engine.state import Row
 from webviz.files.rviz import switch_tree
 from webviz.files.rviz.values import Unfit
+from webviz.shell.testing import DisplayBench
 from webviz.shell.testing.source import SECOND
 from webviz_displays.axes import Axes
 from webviz_displays.camera import Camera
@@ -28,12 +29,12 @@ COLORS, DEPTHS = photos.room(16, 12)
 IMAGE, INFO = "/camera/image_raw", "/camera/camera_info"
 
 
-def send(at: Any, stamp_ns: int | None = None, frame: str = "camera") -> None:
+def send(at: DisplayBench, stamp_ns: int | None = None, frame: str = "camera") -> None:
     values = photos.raw(COLORS, "rgb8")
     at.send(photos.RAW, values, frame=frame, topic=IMAGE, stamp_ns=stamp_ns)
 
 
-def send_info(at: Any, stamp_ns: int | None = None, **changes: Any) -> None:
+def send_info(at: DisplayBench, stamp_ns: int | None = None, **changes: Any) -> None:
     values = photos.info(16, 12) | changes
     at.send(photos.INFO, values, frame="camera", topic=INFO, stamp_ns=stamp_ns)
 
@@ -128,13 +129,14 @@ def test_a_camera_that_cannot_be_right_is_named(
 
 
 def test_the_camera_info_beside_the_images_is_offered_for_a_wrong_one(bench: Benches) -> None:
-    at = bench(Camera(camera_info_topic=Topic("/camera/camera_info")))
+    camera = Camera(camera_info_topic=Topic("/camera/camera_info"))
+    at = bench(camera)
     at.transform("map", "camera")
     send(at)
     send_info(at, width=32)
     at.turn()
     at.press("Camera Info")
-    assert at.display.camera_info_topic.name == ""
+    assert camera.camera_info_topic.name == ""
 
 
 def test_an_image_has_the_camera_info_of_its_stamp(bench: Benches) -> None:

@@ -12,6 +12,7 @@ from display_scenes import camera_infos
 from inspecting import Benches
 
 from webviz import Topic
+from webviz.shell.testing import DisplayBench
 from webviz_displays.camera_info import CameraInfo
 from webviz_displays.depth_cloud import DepthCloud
 
@@ -21,7 +22,7 @@ FACING_X = (-0.5, 0.5, -0.5, 0.5)
 DEPTH, INFO, COLOR = "/depth/image/compressedDepth", "/depth/camera_info", "/color"
 
 
-def send_info(at: Any, topic: str = "", frame: str = "camera", **changes: Any) -> None:
+def send_info(at: DisplayBench, topic: str = "", frame: str = "camera", **changes: Any) -> None:
     at.send(photos.INFO, photos.info(16, 12, **changes), frame=frame, topic=topic)
 
 
@@ -79,13 +80,13 @@ def test_a_camera_that_cannot_be_right_is_named(
     assert sentence in at.statuses()["Camera Info"][1]
 
 
-def cloud(bench: Benches, **values: Any) -> Any:
+def cloud(bench: Benches, **values: Any) -> DisplayBench:
     at = bench(DepthCloud(topic=Topic(DEPTH), **{"auto_size": False, **values}))
     at.transform("map", "camera", (1.0, 0.0, 0.0), FACING_X)
     return at
 
 
-def send_depth(at: Any, depths: Any, encoding: str = "32FC1", **options: Any) -> None:
+def send_depth(at: DisplayBench, depths: Any, encoding: str = "32FC1", **options: Any) -> None:
     at.send(photos.RAW, photos.raw(depths, encoding), frame="camera", topic=DEPTH, **options)
 
 
@@ -233,7 +234,7 @@ def test_points_are_as_large_as_neighbours_are_apart(bench: Benches) -> None:
     np.testing.assert_allclose(at.nodes()["solids"].scales[:2, 0], (8 * 2 / 16, 2 / 16))
 
 
-def hiding(bench: Benches, **values: Any) -> Any:
+def hiding(bench: Benches, **values: Any) -> DisplayBench:
     """A wall 4 m ahead, then something 2 m ahead of one of its pixels."""
     at = cloud(bench, occlusion_compensation=True, color_topic=Topic(COLOR), **values)
     send_info(at, INFO)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import tracemalloc
-from collections.abc import Callable, Mapping
-from typing import Any, ClassVar
+from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from inspecting import Benches
 from plain_scenes import torques
 
 from webviz import Pose
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.vectors import Effort
 from webviz_displays.vectors.effort import Rings
 from webviz_urdf import RobotDescriptionError, turning_joints
@@ -33,10 +33,10 @@ ARM = """
 
 
 @pytest.fixture
-def arm(bench: Benches) -> Callable[..., Any]:
+def arm(bench: Benches) -> Benches:
     """A bench that knows the arm, and where its links are now."""
 
-    def make(display: Effort, prefix: str = "") -> Any:
+    def make(display: Effort, prefix: str = "") -> DisplayBench:
         at = bench(display)
         at.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
         at.turn()
@@ -49,7 +49,7 @@ def arm(bench: Benches) -> Callable[..., Any]:
     return make
 
 
-def measure(at: Any, efforts: Mapping[str, float]) -> None:
+def measure(at: DisplayBench, efforts: Mapping[str, float]) -> None:
     values = {"name": list(efforts), "effort": list(efforts.values())}
     at.send("sensor_msgs/msg/JointState", values, frame="", topic="/joint_states")
     at.turn()

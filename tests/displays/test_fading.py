@@ -13,7 +13,7 @@ SECOND = 1_000_000_000
     ("age", "greyness", "opacity"),
     [(0, 0, 1), (5, 0, 1), (7.5, 0.5, 1), (10, 1, 1), (12.5, 1, 0.5), (15, 1, 0), (99, 1, 0)],
 )
-def test_frames_turn_grey_and_then_transparent(age, greyness, opacity) -> None:
+def test_frames_turn_grey_and_then_transparent(age: float, greyness: float, opacity: float) -> None:
     grey, opaque = fade(np.array([float(age)]), 15.0)
     assert (grey[0], opaque[0]) == (pytest.approx(greyness), pytest.approx(opacity))
 

@@ -7,12 +7,12 @@ from display_scenes import robot_frame
 from inspecting import Benches
 
 from webviz.scene.schemes import SCHEMES
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 
 
-def grid(bench: Benches, **properties: Any) -> Any:
+def grid(bench: Benches, **properties: Any) -> DisplayBench:
     at = bench(Grid(**properties))
     at.turn()
     return at
@@ -25,7 +25,7 @@ def test_the_default_grid_is_the_one_of_rviz(bench: Benches) -> None:
     assert node.segments.min(axis=(0, 1)).tolist() == [-5, -5, 0]
     assert node.segments.max(axis=(0, 1)).tolist() == [5, 5, 0]
     assert (node.colors, node.opacity) == (None, 0.5)  # the grey of the theme
-    assert SCHEMES["dark"]["grid"] == grid_lines.display.color == (160, 160, 164)
+    assert SCHEMES["dark"]["grid"] == Grid().color == (160, 160, 164)
     assert (node.width, node.unit) == (1.0, "px")
     assert grid_lines.statuses()["Grid"][0] == "OK"
 

@@ -16,7 +16,7 @@ from inspecting import Benches
 from mapping_scenes import terrain
 from plain_scenes import in_moving_frame
 
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.grid_map import GridMap
 from webviz_displays.grid_map import display as display_module
 from webviz_displays.grid_map.display import faces_of
@@ -24,7 +24,7 @@ from webviz_displays.grid_map.display import faces_of
 NAN = math.nan
 
 
-def corners(at: Any) -> dict[tuple[float, float, float], tuple[int, int, int]]:
+def corners(at: DisplayBench) -> dict[tuple[float, float, float], tuple[int, int, int]]:
     """The colours of the corners of the surface, by their places in the fixed frame."""
     xyz, colors = at.xyz("surface"), at.nodes()["surface"].colors[:, :3]
     return {

@@ -20,6 +20,7 @@ from webviz.api.nodes import Pane
 from webviz.api.pictures import Encoded, Pixels, Video
 from webviz.data.memory import MemoryBudget
 from webviz.data.messages import encode
+from webviz.shell.testing import DisplayBench
 from webviz.sources import Offer, Publisher
 from webviz_displays.image import Image, video
 from webviz_displays.image.video import FFMPEG, FOXGLOVE
@@ -28,7 +29,7 @@ COLORS, DEPTHS = photos.room(16, 12)
 TOPIC = Image().topic.name
 
 
-def pane_picture(at: Any) -> Any:
+def pane_picture(at: DisplayBench) -> Any:
     """The picture in the pane."""
     pane = at.nodes()["pane"]
     assert isinstance(pane, Pane)

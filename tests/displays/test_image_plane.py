@@ -11,7 +11,7 @@ from built_in_checks import BuiltInChecks
 from display_scenes import image_planes
 from inspecting import Benches
 
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.image_plane import ImagePlane
 from webviz_displays.shared.geometry import transformed
 
@@ -21,7 +21,7 @@ COLORS, DEPTHS = photos.room(16, 12)
 
 def bench_with(
     bench: Benches, values: dict[str, Any], type_: str = photos.RAW, **properties: Any
-) -> Any:
+) -> DisplayBench:
     at = bench(ImagePlane(**properties))
     at.transform("map", "camera", (1.0, 2.0, 3.0))
     at.send(type_, values, frame="camera")
@@ -39,7 +39,10 @@ def bench_with(
     ],
 )
 def test_the_centre_is_the_origin_of_the_frame(
-    bench: Benches, plane: str, upper_left: Any, lower_right: Any
+    bench: Benches,
+    plane: str,
+    upper_left: tuple[float, float, float],
+    lower_right: tuple[float, float, float],
 ) -> None:
     at = bench_with(bench, photos.raw(COLORS, "rgb8"), plane=plane, width=2.0)
     assert (at.statuses()["Image"][0] == "OK") == ("image" in at.nodes())

@@ -17,7 +17,7 @@ from mapping_scenes import IMU as SCENE_IMU
 from plain_scenes import in_moving_frame
 
 from webviz.data.rotations import multiply
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings, AxesSettings, BoxSettings
 
@@ -32,7 +32,7 @@ MEASURED = {
 ARROW = AccelerationSettings(enable_acceleration=True, acc_vector_scale=0.1)
 
 
-def arrow(at: Any, key: str) -> tuple[np.ndarray, np.ndarray]:
+def arrow(at: DisplayBench, key: str) -> tuple[np.ndarray, np.ndarray]:
     """Tail and tip of an arrow along its x axis or as it lies, in the fixed frame."""
     parts = [at.nodes()[f"{key}shafts"], at.nodes()[f"{key}heads"]]
     shaft, head = (at.xyz(f"{key}{part}")[0] for part in ("shafts", "heads"))

@@ -29,4 +29,6 @@ def test_an_item_of_a_display_that_does_not_know_has_its_number(bench: Benches) 
     (name,) = at.scene.groups
     assert isinstance(at.nodes()["lines"], Lines)
     hits = at.runner.find(NodePicks(name, "lines", ((1, 1, (0.0, 1.0, 0.0), None),)))
-    check_details(at.runner.inspect(hits[1], Frames(at.buffer, "map", 0)), "Line 2", {})
+    details = at.runner.inspect(hits[1], Frames(at.buffer, "map", 0))
+    assert details is not None
+    check_details(details, "Line 2", {})

@@ -9,7 +9,7 @@ from display_scenes import scans
 from inspecting import Benches, check_empty, colors
 
 from webviz.api.nodes import Instances, Lines, Points
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.laser_scan import LaserScan
 
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -229,7 +229,7 @@ def test_a_style_that_viser_has_not_is_named(lab: Benches) -> None:
 # Time
 
 
-def moving(bench: Benches, **properties: Any) -> Any:
+def moving(bench: Benches, **properties: Any) -> DisplayBench:
     """A bench whose laser moves along y by 1 m each second."""
     at = bench(LaserScan(**properties))
     start = at.now_ns

@@ -1,6 +1,7 @@
 """The Map display: grids and updates to tiles."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,9 +9,11 @@ from built_in_checks import BuiltInChecks
 from display_scenes import maps
 from inspecting import QUARTER, Benches
 from mapping_scenes import COSTMAP, costmaps
+from numpy.typing import ArrayLike
 
 from webviz import Image, Topic
-from webviz.shell.testing import check_details
+from webviz.api.nodes import Pose
+from webviz.shell.testing import DisplayBench, check_details
 from webviz.shell.testing.messages import header
 from webviz_displays.map import Costmap, Map
 from webviz_displays.map.palettes import lookup_table
@@ -20,7 +23,12 @@ GRID = "nav_msgs/msg/OccupancyGrid"
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
 
 
-def grid_values(cells, resolution=0.5, origin=(0.0, 0.0, 0.0), xyzw=(0.0, 0.0, 0.0, 1.0)):
+def grid_values(
+    cells: ArrayLike,
+    resolution: float = 0.5,
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    xyzw: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0),
+) -> dict[str, Any]:
     cells = np.asarray(cells, np.int8)
     position = dict(zip("xyz", origin, strict=True))
     orientation = dict(zip("xyzw", xyzw, strict=True))
@@ -33,7 +41,7 @@ def grid_values(cells, resolution=0.5, origin=(0.0, 0.0, 0.0), xyzw=(0.0, 0.0, 0
     return {"info": info, "data": cells.ravel()}
 
 
-def update_values(x, y, cells):
+def update_values(x: int, y: int, cells: ArrayLike) -> dict[str, Any]:
     cells = np.asarray(cells, np.int8)
     return {
         "x": x,
@@ -44,17 +52,17 @@ def update_values(x, y, cells):
     }
 
 
-def send_map(at, cells, **options) -> None:
+def send_map(at: DisplayBench, cells: ArrayLike, **options: Any) -> None:
     at.send(GRID, grid_values(cells, **options), frame="map", topic="/map")
     at.turn()
 
 
-def send_update(at, x, y, cells) -> None:
+def send_update(at: DisplayBench, x: int, y: int, cells: ArrayLike) -> None:
     at.send(UPDATE, update_values(x, y, cells), frame="map", topic="/map_updates")
     at.turn()
 
 
-def whole_picture(at) -> np.ndarray:
+def whole_picture(at: DisplayBench) -> np.ndarray:
     """The tiles put together again."""
     tiles = {tuple(map(int, key.split()[1:])): node for key, node in at.nodes().items()}
     rows = max(row + tile.rgba.shape[0] for (row, _), tile in tiles.items())
@@ -65,7 +73,7 @@ def whole_picture(at) -> np.ndarray:
     return picture
 
 
-def corner_of_cell(pose, x, y):
+def corner_of_cell(pose: Pose, x: float, y: float) -> tuple[float, float, float]:
     """Return where a point of a tile lies in the fixed frame; tiles here turn about z only."""
     w, _, _, z = pose.wxyz
     yaw = 2 * math.atan2(z, w)
@@ -78,12 +86,14 @@ def corner_of_cell(pose, x, y):
 
 
 @pytest.fixture
-def at(bench):
+def at(bench: Benches) -> DisplayBench:
     """The bench of a map."""
     return bench(Map())
 
 
-def test_a_map_is_drawn_cell_by_cell_in_the_colours_of_its_scheme(bench) -> None:
+def test_a_map_is_drawn_cell_by_cell_in_the_colours_of_its_scheme(
+    bench: Benches,
+) -> None:
     at = bench(Map(alpha=1.0))
     cells = [[0, 100, -1], [50, 99, 1]]
     send_map(at, cells)
@@ -95,7 +105,9 @@ def test_a_map_is_drawn_cell_by_cell_in_the_colours_of_its_scheme(bench) -> None
     assert at.statuses()["Map"] == ("OK", "3 x 2 cells of 0.5 m in frame 'map'.")
 
 
-def test_no_tile_is_larger_than_allowed_and_together_they_are_the_map(bench) -> None:
+def test_no_tile_is_larger_than_allowed_and_together_they_are_the_map(
+    bench: Benches,
+) -> None:
     at = bench(Map(alpha=1.0))
     cells = np.random.default_rng(0).integers(-1, 101, (TILE + 44, 2 * TILE + 8), np.int8)
     send_map(at, cells)
@@ -105,7 +117,9 @@ def test_no_tile_is_larger_than_allowed_and_together_they_are_the_map(bench) -> 
 
 
 @pytest.mark.parametrize("shape", [(1, 1_000_000), (1_000_000, 1), (3, 400_000), (9000, 9000)])
-def test_a_map_of_any_shape_is_a_bounded_number_of_images(bench, shape) -> None:
+def test_a_map_of_any_shape_is_a_bounded_number_of_images(
+    bench: Benches, shape: tuple[int, int]
+) -> None:
     at = bench(Map(alpha=1.0))
     cells = np.zeros(shape, np.int8)
     cells[-1, -1] = 100
@@ -119,12 +133,12 @@ def test_a_map_of_any_shape_is_a_bounded_number_of_images(bench, shape) -> None:
     assert sum(node is nodes[key] for key, node in at.nodes().items()) == len(nodes) - 1
 
 
-def test_a_map_longer_than_any_picture_is_refused(at) -> None:
+def test_a_map_longer_than_any_picture_is_refused(at: DisplayBench) -> None:
     send_map(at, np.zeros((1, MAX_CELLS + 1)))
     assert "at most 1048576 along an edge" in at.statuses()["Map"][1]
 
 
-def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(at) -> None:
+def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(at: DisplayBench) -> None:
     half = math.radians(90) / 2
     yaw = (0.0, 0.0, math.sin(half), math.cos(half))
     send_map(at, np.zeros((TILE + 44, TILE + 44)), resolution=0.1, origin=(5.0, 7.0, 1.0), xyzw=yaw)
@@ -136,7 +150,7 @@ def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(at) -> None:
     assert corner_of_cell(poses["tile 0 0"], 1.0, 2.0) == pytest.approx((3.0, 8.0, 1.0))
 
 
-def test_a_map_follows_its_frame(bench) -> None:
+def test_a_map_follows_its_frame(bench: Benches) -> None:
     at = bench(Map(), fixed_frame="odom")
     at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     send_map(at, [[0]])
@@ -146,7 +160,9 @@ def test_a_map_follows_its_frame(bench) -> None:
     assert at.poses()["tile 0 0"].position == pytest.approx((2.0, 0.0, 0.0))
 
 
-def test_a_map_is_placed_at_the_time_of_now_and_not_of_the_newest_transform(bench) -> None:
+def test_a_map_is_placed_at_the_time_of_now_and_not_of_the_newest_transform(
+    bench: Benches,
+) -> None:
     at = bench(Map(), fixed_frame="odom")
     at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     at.transform("odom", "map", (2.0, 0.0, 0.0), stamp_ns=at.now_ns + 10**9)
@@ -155,7 +171,7 @@ def test_a_map_is_placed_at_the_time_of_now_and_not_of_the_newest_transform(benc
     assert at.poses()["tile 0 0"].position == pytest.approx((1.5, 0.0, 0.0))
 
 
-def test_with_use_timestamp_a_map_stays_where_its_frame_was(bench) -> None:
+def test_with_use_timestamp_a_map_stays_where_its_frame_was(bench: Benches) -> None:
     at = bench(Map(use_timestamp=True), fixed_frame="odom")
     at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     send_map(at, [[0]], origin=(0.0, 3.0, 0.0))
@@ -164,7 +180,9 @@ def test_with_use_timestamp_a_map_stays_where_its_frame_was(bench) -> None:
     assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 3.0, 0.0))
 
 
-def test_with_use_timestamp_an_update_changes_cells_and_not_the_place(bench) -> None:
+def test_with_use_timestamp_an_update_changes_cells_and_not_the_place(
+    bench: Benches,
+) -> None:
     at = bench(Map(use_timestamp=True), fixed_frame="odom")
     at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     send_map(at, [[0]])
@@ -175,7 +193,9 @@ def test_with_use_timestamp_an_update_changes_cells_and_not_the_place(bench) -> 
     assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 0.0, 0.0))
 
 
-def test_use_timestamp_without_a_transform_then_or_a_stamp_follows_the_frame(bench) -> None:
+def test_use_timestamp_without_a_transform_then_or_a_stamp_follows_the_frame(
+    bench: Benches,
+) -> None:
     at = bench(Map(), fixed_frame="odom")
     at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     at.send(GRID, grid_values([[0]]), frame="map", stamp_ns=10**9, topic="/map")
@@ -189,7 +209,7 @@ def test_use_timestamp_without_a_transform_then_or_a_stamp_follows_the_frame(ben
     assert at.statuses()["Transform"][0] == "OK"
 
 
-def test_a_map_in_a_new_fixed_frame_needs_no_new_message(at) -> None:
+def test_a_map_in_a_new_fixed_frame_needs_no_new_message(at: DisplayBench) -> None:
     at.transform("odom", "map", (4.0, 0.0, 0.0))
     send_map(at, [[0]])
     at.fixed_frame = "odom"
@@ -197,7 +217,7 @@ def test_a_map_in_a_new_fixed_frame_needs_no_new_message(at) -> None:
     assert at.poses()["tile 0 0"].position == pytest.approx((4.0, 0.0, 0.0))
 
 
-def test_an_update_replaces_only_its_tiles(bench) -> None:
+def test_an_update_replaces_only_its_tiles(bench: Benches) -> None:
     at = bench(Map(alpha=1.0))
     cells = np.zeros((TILE + 44, TILE + 44), np.int8)
     send_map(at, cells)
@@ -211,7 +231,7 @@ def test_an_update_replaces_only_its_tiles(bench) -> None:
     assert at.statuses()["Update"] == ("OK", "1 update since the last whole map.")
 
 
-def test_one_changed_cell_replaces_one_tile(at) -> None:
+def test_one_changed_cell_replaces_one_tile(at: DisplayBench) -> None:
     cells = np.zeros((TILE + 44, TILE + 44), np.int8)
     send_map(at, cells)
     before = at.nodes()
@@ -221,7 +241,7 @@ def test_one_changed_cell_replaces_one_tile(at) -> None:
     assert {key for key in after if after[key] is not before[key]} == {f"tile {TILE} {TILE}"}
 
 
-def test_an_origin_with_a_zero_rotation_is_drawn_and_reported(at) -> None:
+def test_an_origin_with_a_zero_rotation_is_drawn_and_reported(at: DisplayBench) -> None:
     send_map(at, [[0]])
     assert "Orientation" not in at.statuses()
     send_map(at, [[0]], xyzw=(0.0, 0.0, 0.0, 0.0))
@@ -232,14 +252,14 @@ def test_an_origin_with_a_zero_rotation_is_drawn_and_reported(at) -> None:
     )
 
 
-def test_a_smaller_map_leaves_no_tile_of_the_larger_one(at) -> None:
+def test_a_smaller_map_leaves_no_tile_of_the_larger_one(at: DisplayBench) -> None:
     send_map(at, np.zeros((TILE + 1, TILE + 1)))
     send_map(at, np.zeros((2, 2)))
     assert list(at.nodes()) == ["tile 0 0"]
 
 
 @pytest.mark.parametrize(("x", "y"), [(-1, 0), (0, -1), (3, 0), (0, 2)])
-def test_an_update_outside_of_the_map_is_refused(at, x, y) -> None:
+def test_an_update_outside_of_the_map_is_refused(at: DisplayBench, x: int, y: int) -> None:
     send_map(at, np.zeros((3, 4)))
     before = at.nodes()["tile 0 0"]
     send_update(at, x, y, [[100, 100], [100, 100]])
@@ -249,7 +269,7 @@ def test_an_update_outside_of_the_map_is_refused(at, x, y) -> None:
     assert f"2 x 2 cells at ({x}, {y}) reaches outside of the map of 4 x 3" in text
 
 
-def test_an_update_with_too_little_data_is_refused(at) -> None:
+def test_an_update_with_too_little_data_is_refused(at: DisplayBench) -> None:
     send_map(at, np.zeros((3, 4)))
     values = update_values(0, 0, [[100, 100]]) | {"height": 2}
     at.send(UPDATE, values, frame="map", topic="/map_updates")
@@ -260,7 +280,7 @@ def test_an_update_with_too_little_data_is_refused(at) -> None:
     )
 
 
-def test_an_update_in_another_frame_is_refused(at) -> None:
+def test_an_update_in_another_frame_is_refused(at: DisplayBench) -> None:
     at.transform("map", "odom")
     send_map(at, [[0]])
     at.send(UPDATE, update_values(0, 0, [[100]]), frame="odom", topic="/map_updates")
@@ -268,7 +288,7 @@ def test_an_update_in_another_frame_is_refused(at) -> None:
     assert at.statuses()["Update"][1] == "The update is in frame 'odom', the map in 'map'."
 
 
-def test_updates_come_from_the_topic_beside_the_map(bench) -> None:
+def test_updates_come_from_the_topic_beside_the_map(bench: Benches) -> None:
     at = bench(Map(topic=Topic("/global_costmap/costmap")))
     assert set(at.runner.subscriptions()) == {
         "/global_costmap/costmap",
@@ -276,19 +296,19 @@ def test_updates_come_from_the_topic_beside_the_map(bench) -> None:
     }
 
 
-def test_a_map_without_updates_is_ok(at) -> None:
+def test_a_map_without_updates_is_ok(at: DisplayBench) -> None:
     send_map(at, [[0]])
     assert {level for level, _ in at.statuses().values()} == {"OK"}
 
 
-def test_an_empty_update_changes_nothing(at) -> None:
+def test_an_empty_update_changes_nothing(at: DisplayBench) -> None:
     send_map(at, [[0]])
     before = at.nodes()["tile 0 0"]
     send_update(at, 0, 0, np.zeros((0, 0)))
     assert at.nodes()["tile 0 0"] is before
 
 
-def test_updates_before_the_map_are_ignored(at) -> None:
+def test_updates_before_the_map_are_ignored(at: DisplayBench) -> None:
     send_update(at, 0, 0, [[100]])
     assert at.nodes() == {}
     assert at.statuses()["Map"] == (
@@ -315,7 +335,9 @@ def test_updates_before_the_map_are_ignored(at) -> None:
         ({"info": {"origin": {"orientation": {"w": math.inf}}}}, "origin is not finite"),
     ],
 )
-def test_an_invalid_map_has_a_status(at, change, sentence) -> None:
+def test_an_invalid_map_has_a_status(
+    at: DisplayBench, change: dict[str, Any], sentence: str
+) -> None:
     values = grid_values(np.zeros((2, 3)))
     values["info"] = values["info"] | change["info"]
     at.send(GRID, values, frame="map", topic="/map")
@@ -326,7 +348,9 @@ def test_an_invalid_map_has_a_status(at, change, sentence) -> None:
     assert at.nodes() == {}
 
 
-def test_after_a_map_that_cannot_be_drawn_the_one_before_stays_as_it_was(bench) -> None:
+def test_after_a_map_that_cannot_be_drawn_the_one_before_stays_as_it_was(
+    bench: Benches,
+) -> None:
     at = bench(Map(use_timestamp=True), fixed_frame="odom")
     at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     send_map(at, [[0, 100]])
@@ -348,12 +372,14 @@ def test_after_a_map_that_cannot_be_drawn_the_one_before_stays_as_it_was(bench) 
 
 
 @pytest.mark.parametrize("xyzw", [(0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 3.0)])
-def test_an_orientation_of_another_length_is_put_right(at, xyzw) -> None:
+def test_an_orientation_of_another_length_is_put_right(
+    at: DisplayBench, xyzw: tuple[float, float, float, float]
+) -> None:
     send_map(at, [[0]], xyzw=xyzw)
     assert at.poses()["tile 0 0"].wxyz == pytest.approx((1.0, 0.0, 0.0, 0.0))
 
 
-def test_changes_of_the_look_show_without_a_new_message(at) -> None:
+def test_changes_of_the_look_show_without_a_new_message(at: DisplayBench) -> None:
     send_map(at, [[0, 100]])
     at.set("alpha", 1.0)
     assert whole_picture(at).tolist() == [[[255, 255, 255, 255], [0, 0, 0, 255]]]
@@ -370,7 +396,7 @@ def test_changes_of_the_look_show_without_a_new_message(at) -> None:
     assert at.nodes()["tile 0 0"].layer == 7
 
 
-def test_an_invisible_map_is_not_called_ok(bench) -> None:
+def test_an_invisible_map_is_not_called_ok(bench: Benches) -> None:
     at = bench(Map(alpha=0.0))
     send_map(at, [[0]])
     assert at.statuses()["Map"][0] == "WARN"
@@ -390,7 +416,7 @@ class TestMap(BuiltInChecks):
     )
 
 
-def test_selecting_cell_of_a_map(at) -> None:
+def test_selecting_cell_of_a_map(at: DisplayBench) -> None:
     """The cell is in the second tile of a turned map."""
     cells = np.zeros((3, 600), np.int8)
     cells[1, 520] = 100

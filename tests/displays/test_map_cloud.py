@@ -24,7 +24,7 @@ from rtabmap_scenes import (
 )
 from waiting import until
 
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.map_cloud import MapCloud, known_map
 from webviz_displays.map_cloud.compression import RVL
 
@@ -37,7 +37,7 @@ HERE = {1: (0.0, 0.0)}
 def cloud_bench(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn messages in the frame odom, 10 m along x."""
 
-    def make(*messages: dict[str, Any], **properties: Any) -> Any:
+    def make(*messages: dict[str, Any], **properties: Any) -> DisplayBench:
         at = bench(MapCloud(**({"cloud_decimation": 1, "cloud_voxel_size": 0.0} | properties)))
         at.transform("map", "odom", (10.0, 0.0, 0.0))
         for values in messages:
@@ -47,13 +47,13 @@ def cloud_bench(bench: Benches) -> Callable[..., Any]:
     return make
 
 
-def publish(at: Any, values: dict[str, Any]) -> None:
+def publish(at: DisplayBench, values: dict[str, Any]) -> None:
     at.send(MAP_DATA, values, frame="odom", topic="/rtabmap/mapData")
     at.turn()
     until(lambda: not at.runner.is_busy(), turn=at.turn)
 
 
-def points(at: Any) -> np.ndarray:
+def points(at: DisplayBench) -> np.ndarray:
     """The points of all nodes in the fixed frame."""
     return np.concatenate([at.xyz(key) for key in at.nodes()])
 

@@ -15,7 +15,7 @@ from display_scenes import markers as markers_of_both_kinds
 from inspecting import Benches
 
 from webviz import Details
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz_displays.markers import Marker, MarkerArray, store
@@ -47,7 +47,7 @@ def cube(id: int = 0, x: float = 0.0, frame: str = "map", **more: Any) -> dict[s
 def marker_bench(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn arrays of markers."""
 
-    def make(*arrays: list[dict[str, Any]], **properties: Any) -> Any:
+    def make(*arrays: list[dict[str, Any]], **properties: Any) -> DisplayBench:
         at = bench(MarkerArray(**properties))
         at.transform("map", "base", (10.0, 0.0, 0.0))
         for markers in arrays:
@@ -57,13 +57,13 @@ def marker_bench(bench: Benches) -> Callable[..., Any]:
     return make
 
 
-def send(bench: Any, *markers: dict[str, Any]) -> None:
+def send(bench: DisplayBench, *markers: dict[str, Any]) -> None:
     bench.send(ARRAY, {"markers": list(markers)})
     bench.turn()
     bench.settle()
 
 
-def xs(bench: Any) -> list[float]:
+def xs(bench: DisplayBench) -> list[float]:
     """Return where the cubes are along x, sorted."""
     nodes = [bench.xyz(key)[:, 0] for key in bench.nodes() if key.startswith("box")]
     return sorted(np.concatenate(nodes).round(6).tolist()) if nodes else []

@@ -20,7 +20,7 @@ from octrees import OCTOMAP, Key, OctreeNode, binary, full, octree, signed
 from plain_scenes import in_moving_frame
 
 from webviz.data.memory import DECODING, MemoryBudget
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.octomap import (
     ColorOccupancyGrid,
     OccupancyGrid,
@@ -283,7 +283,7 @@ def test_trees_are_held_in_memory_as_long_as_there_is_some_for_them(turned: Call
     assert at.nodes()
 
 
-def cells(at: Any) -> list[list[int]]:
+def cells(at: DisplayBench) -> list[list[int]]:
     """The values of a map of one tile, the row with the lowest y first."""
     return at.nodes()["tile 0 0"].cells.view(np.int8).tolist()
 

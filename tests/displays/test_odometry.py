@@ -9,7 +9,7 @@ from inspecting import Benches
 from numpy.typing import NDArray
 
 from webviz.data.rotations import matrices
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.odometry import Odometry
 from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES
 from webviz_displays.shared.pose_properties import (
@@ -46,7 +46,7 @@ def odometry(
     return {"pose": {"pose": pose, "covariance": covariance.ravel()}}
 
 
-def tails(bench: Any) -> list[list[float]]:
+def tails(bench: DisplayBench) -> list[list[float]]:
     return bench.nodes()["poses"].segments[:, 0].round(4).tolist()
 
 

@@ -17,7 +17,7 @@ from waiting import until
 
 from webviz.data.geo import Geodetic, TilePlane, to_enu
 from webviz.files import opening
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.outdoors import AerialMap, GeoPath, NavSatFix
 
 FIX, PATH = "sensor_msgs/msg/NavSatFix", "geographic_msgs/msg/GeoPath"
@@ -53,7 +53,7 @@ def write_tiles(folder: Path) -> Path:
     return folder
 
 
-def loaded(at: Any) -> Any:
+def loaded(at: DisplayBench) -> DisplayBench:
     """Turn until all tiles have been tried."""
     at.turn()
     until(lambda: not at.statuses()["Tiles"][1].startswith("Loading"), turn=at.turn)
@@ -64,7 +64,7 @@ def loaded(at: Any) -> Any:
 def map_bench(bench: Benches, tmp_path: Path) -> Callable[..., Any]:
     """A bench with tiles around a receiver that stands 10 m east of the origin of map."""
 
-    def make(message: Mapping[str, Any] | None = None, **properties: Any) -> Any:
+    def make(message: Mapping[str, Any] | None = None, **properties: Any) -> DisplayBench:
         folder = write_tiles(tmp_path / "tiles")
         values = {"object_uri": str(folder), "zoom": ZOOM, "blocks": 1} | properties
         at = bench(AerialMap(**values))

@@ -44,7 +44,9 @@ RAW = {
 
 
 @pytest.mark.parametrize(("scheme", "colors"), [("map", MAP), ("costmap", COSTMAP), ("raw", RAW)])
-def test_every_scheme_has_the_bytes_of_rviz(scheme, colors) -> None:
+def test_every_scheme_has_the_bytes_of_rviz(
+    scheme: str, colors: dict[int, tuple[int, int, int, int]]
+) -> None:
     cells = np.array([list(colors)], np.int8)
     colored = lookup_table(scheme)[cells.view(np.uint8)]
     assert colored.tolist() == [[list(c) for c in colors.values()]]
@@ -63,14 +65,16 @@ def test_the_grey_of_a_map_never_gets_lighter_with_the_value() -> None:
         ("raw", (0, 0, 0), (255, 255, 255)),
     ],
 )
-def test_a_threshold_leaves_two_colours_of_legal_values_both_opaque(scheme, below, above) -> None:
+def test_a_threshold_leaves_two_colours_of_legal_values_both_opaque(
+    scheme: str, below: tuple[int, int, int], above: tuple[int, int, int]
+) -> None:
     table = lookup_table(scheme, binary_threshold=40)
     assert (table[:40] == (*below, 255)).all()
     assert (table[40:101] == (*above, 255)).all()
 
 
 @pytest.mark.parametrize("scheme", ["map", "costmap"])
-def test_a_threshold_leaves_unknown_and_illegal_values_as_they_are(scheme) -> None:
+def test_a_threshold_leaves_unknown_and_illegal_values_as_they_are(scheme: str) -> None:
     table = lookup_table(scheme, binary_threshold=40)
     assert (table[101:] == lookup_table(scheme)[101:]).all()
 

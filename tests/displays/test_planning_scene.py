@@ -17,7 +17,7 @@ from robot_arm import ARM, describe, is_loaded, wait
 from webviz import Topic
 from webviz.api.nodes import Instances, Mesh
 from webviz.data.messages import encode
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.moveit import PlanningScene
 from webviz_displays.moveit.properties import SceneGeometry
 
@@ -57,14 +57,14 @@ def attachment(link: str, thing: dict[str, Any]) -> dict[str, Any]:
     return {"link_name": link, "object": thing}
 
 
-def tell(bench: Any, values: dict[str, Any]) -> None:
+def tell(bench: DisplayBench, values: dict[str, Any]) -> None:
     bench.send(SCENE, values, topic=TOPIC)
     bench.turn()
     bench.turn()
 
 
 @pytest.fixture
-def world(bench: Benches) -> Any:
+def world(bench: Benches) -> DisplayBench:
     at_once = SceneGeometry(scene_display_time=0.0001)
     return bench(
         PlanningScene(robot_description=Topic("/robot_description"), scene_geometry=at_once)
@@ -72,14 +72,14 @@ def world(bench: Benches) -> Any:
 
 
 @pytest.fixture
-def arm(world: Any) -> Any:
+def arm(world: DisplayBench) -> DisplayBench:
     """Return a world with the robot, whose wrist is known."""
     describe(world, ARM)
     tell(world, {"name": "cell", "robot_state": state(wrist=0.0)})
     return world
 
 
-def boxes(bench: Any, key: str = "object box") -> list[float]:
+def boxes(bench: DisplayBench, key: str = "object box") -> list[float]:
     """Return where boxes are along x."""
     for name, node in bench.nodes().items():
         if name.startswith(key):
@@ -88,7 +88,7 @@ def boxes(bench: Any, key: str = "object box") -> list[float]:
     return []
 
 
-def test_every_kind_of_shape_is_drawn(world: Any) -> None:
+def test_every_kind_of_shape_is_drawn(world: DisplayBench) -> None:
     shapes = [(1, [1.0, 2.0, 3.0]), (2, [0.5]), (3, [2.0, 0.25]), (4, [3.0, 0.5])]
     triangle = {"vertices": np.eye(3), "triangles": np.array([[0, 1, 2]], np.uint32)}
     thing = {
@@ -119,7 +119,7 @@ def test_every_kind_of_shape_is_drawn(world: Any) -> None:
     assert world.statuses()["Scene"] == ("OK", "1 object.")
 
 
-def test_messages_with_changes_add_move_extend_and_remove_objects(world: Any) -> None:
+def test_messages_with_changes_add_move_extend_and_remove_objects(world: DisplayBench) -> None:
     tell(world, scene(box("a"), box("b", 1.0)))
     assert boxes(world) == [0.0, 1.0]
     tell(world, scene(box("c", 2.0), box("a", operation=REMOVE), is_diff=True))
@@ -136,7 +136,7 @@ def test_messages_with_changes_add_move_extend_and_remove_objects(world: Any) ->
     assert world.statuses()["Scene"] == ("OK", "0 objects.")
 
 
-def test_colors_of_objects_override_those_of_the_display(world: Any) -> None:
+def test_colors_of_objects_override_those_of_the_display(world: DisplayBench) -> None:
     red = {"id": "b", "color": {"r": 1.0, "a": 0.5}}
     tell(world, scene(box("a"), box("b", 1.0), object_colors=[red]))
     nodes = [node for key, node in world.nodes().items() if key.startswith("object box")]
@@ -150,7 +150,7 @@ def test_colors_of_objects_override_those_of_the_display(world: Any) -> None:
     assert "colour of object 'b'" in world.statuses()["Objects"][1]
 
 
-def test_the_robot_follows_the_state_of_the_scene(arm: Any) -> None:
+def test_the_robot_follows_the_state_of_the_scene(arm: DisplayBench) -> None:
     arm.transform("map", "cell", (3.0, 0.0, 0.0))
     assert arm.statuses()["Joints"] == ("OK", "The positions of 1 joint are known.")
     new_state = state("cell", wrist=1.0)
@@ -166,7 +166,7 @@ def test_the_robot_follows_the_state_of_the_scene(arm: Any) -> None:
     assert (level, "no joint 'elbow'" in text) == ("WARN", True)
 
 
-def test_attached_objects_move_with_their_link(arm: Any) -> None:
+def test_attached_objects_move_with_their_link(arm: DisplayBench) -> None:
     tell(arm, scene(box("cup", 4.0), is_diff=True))
     cup = box("cup", frame="tool", pose=at(0.0, 0.0, 1.0))
     tell(arm, {"is_diff": True, "robot_state": state("map", attachment("tool", cup), wrist=np.pi)})
@@ -180,7 +180,7 @@ def test_attached_objects_move_with_their_link(arm: Any) -> None:
     assert boxes(arm) == [0.0]
 
 
-def test_objects_are_placed_by_frames_of_links_objects_and_transforms(arm: Any) -> None:
+def test_objects_are_placed_by_frames_of_links_objects_and_transforms(arm: DisplayBench) -> None:
     arm.transform("map", "table", (6.0, 0.0, 0.0))
     shelf = box("shelf", 1.0, subframe_names=["top"], subframe_poses=[at(0.5)])
     things = [box("on", 0.25, "shelf/top"), shelf, box("b", 0.0, "table"), box("c", 2.0, "base")]
@@ -194,7 +194,7 @@ def test_objects_are_placed_by_frames_of_links_objects_and_transforms(arm: Any) 
     assert "Object frames" not in arm.statuses()
 
 
-def test_a_scene_without_transform_or_robot_has_a_status(world: Any) -> None:
+def test_a_scene_without_transform_or_robot_has_a_status(world: DisplayBench) -> None:
     world.turn()
     assert world.statuses()["Scene"][1].startswith(f"No planning scene received on {TOPIC}.")
     tell(world, scene(box("a", frame="world"), robot_state=state("world")))
@@ -205,7 +205,7 @@ def test_a_scene_without_transform_or_robot_has_a_status(world: Any) -> None:
     assert boxes(world) == [1.0]
 
 
-def test_the_earlier_scene_is_requested_from_move_group(world: Any) -> None:
+def test_the_earlier_scene_is_requested_from_move_group(world: DisplayBench) -> None:
     tell(world, scene(box("b", 1.0), box("old", operation=REMOVE), is_diff=True))
     service = "moveit_msgs/srv/GetPlanningScene"
     whole = scene(box("a"), box("b", 9.0), box("old", 7.0), name="cell")
@@ -242,7 +242,7 @@ def test_the_earlier_scene_is_requested_from_move_group(world: Any) -> None:
     ],
 )
 def test_invalid_objects_are_reported_and_the_rest_drawn(
-    world: Any, thing: dict[str, Any], why: str
+    world: DisplayBench, thing: dict[str, Any], why: str
 ) -> None:
     tell(world, scene(box("good", 1.0), {**box("bad", 2.0), **thing}))
     world.settle()
@@ -251,7 +251,9 @@ def test_invalid_objects_are_reported_and_the_rest_drawn(
     assert 1.0 in boxes(world)
 
 
-def test_objects_without_end_are_bounded(world: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_objects_without_end_are_bounded(
+    world: DisplayBench, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("webviz_displays.moveit.scene.MAX_BYTES", 5000)
     monkeypatch.setattr("webviz_displays.moveit.scene.MAX_NAMES", 10)
     for first in range(0, 40, 4):
@@ -260,7 +262,7 @@ def test_objects_without_end_are_bounded(world: Any, monkeypatch: pytest.MonkeyP
     assert "take more than" in world.statuses()["Objects"][1]
 
 
-def test_the_display_time_holds_the_robot_until_the_next_round(arm: Any) -> None:
+def test_the_display_time_holds_the_robot_until_the_next_round(arm: DisplayBench) -> None:
     arm.set("scene_geometry.scene_display_time", 10.0)
     first = arm.poses()["tool visual grip"].wxyz
     arm.send(SCENE, {"is_diff": True, "robot_state": state(wrist=2.0)}, topic=TOPIC)
@@ -271,7 +273,7 @@ def test_the_display_time_holds_the_robot_until_the_next_round(arm: Any) -> None
     assert arm.poses()["tool visual grip"].wxyz[0] == pytest.approx(np.cos(1.0))
 
 
-def test_the_robot_is_where_the_scene_has_it_once_time_stands_still(arm: Any) -> None:
+def test_the_robot_is_where_the_scene_has_it_once_time_stands_still(arm: DisplayBench) -> None:
     arm.set("scene_geometry.scene_display_time", 1e6)
     first = arm.poses()["tool visual grip"].wxyz
     arm.send(SCENE, {"is_diff": True, "robot_state": state(wrist=2.0)}, topic=TOPIC)
@@ -281,7 +283,7 @@ def test_the_robot_is_where_the_scene_has_it_once_time_stands_still(arm: Any) ->
     assert arm.poses()["tool visual grip"].wxyz[0] == pytest.approx(np.cos(1.0))
 
 
-def test_the_octomap_is_drawn_as_boxes_where_it_is(world: Any) -> None:
+def test_the_octomap_is_drawn_as_boxes_where_it_is(world: DisplayBench) -> None:
     tree = octrees.full(octrees.octree([(0, 0, 0), (2, 0, 0)]), resolution=0.5)
     world.transform("map", "camera", (1.0, 0.0, 0.0))
     placed = {"header": {"frame_id": "camera"}, "origin": at(2.0), "octomap": tree}
@@ -301,13 +303,13 @@ def test_the_octomap_is_drawn_as_boxes_where_it_is(world: Any) -> None:
     assert boxes(world, "octomap") == []
 
 
-def test_an_unreadable_urdf_is_named(world: Any) -> None:
+def test_an_unreadable_urdf_is_named(world: DisplayBench) -> None:
     world.send("std_msgs/msg/String", {"data": "<robot"}, topic="/robot_description")
     wait(world, lambda: is_loaded(world))
     assert world.statuses()["URDF"][0] == "ERROR"
 
 
-def test_the_frame_loop_leaves_a_large_scene_to_threads(world: Any) -> None:
+def test_the_frame_loop_leaves_a_large_scene_to_threads(world: DisplayBench) -> None:
     many = encode(SCENE, scene(*(box(str(n), float(n % 100)) for n in range(4000))))
     in_loop_s, everything_s = time.thread_time(), time.process_time()
     world.send_bytes(SCENE, many, TOPIC)
@@ -318,7 +320,7 @@ def test_the_frame_loop_leaves_a_large_scene_to_threads(world: Any) -> None:
     assert in_loop_s < everything_s / 2
 
 
-def test_objects_that_follow_each_other_backwards_are_placed_at_once(world: Any) -> None:
+def test_objects_that_follow_each_other_backwards_are_placed_at_once(world: DisplayBench) -> None:
     chain = [box(f"o{number}", 1.0, f"o{number + 1}") for number in range(3000)]
     before_s = time.thread_time()
     tell(world, scene(*chain, box("o3000")))
@@ -331,7 +333,7 @@ def test_objects_that_follow_each_other_backwards_are_placed_at_once(world: Any)
 
 
 def test_a_hand_holds_a_limited_number_of_objects(
-    world: Any, monkeypatch: pytest.MonkeyPatch
+    world: DisplayBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.moveit.scene.MAX_HELD", 3)
     things = [attachment("base", box(str(number), frame="base")) for number in range(4)]

@@ -11,19 +11,19 @@ from display_scenes import OTHER_LINKS
 from inspecting import Benches
 from moveit_scenes import NUMBERS, SOLUTION, TASK, plan_task
 
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.moveit import MotionPlanningTasks
 from webviz_displays.moveit.planning_tasks import SolutionMarkers
 
 MESSAGES = "moveit_task_constructor_msgs/msg"
 
 
-def tell(at: Any, type_name: str, values: dict[str, Any], topic: str) -> None:
+def tell(at: DisplayBench, type_name: str, values: dict[str, Any], topic: str) -> None:
     at.send(f"{MESSAGES}/{type_name}", values, topic=topic)
     at.turn()
 
 
-def markers(at: Any) -> list[float]:
+def markers(at: DisplayBench) -> list[float]:
     """Return the positions of the solution's markers along x."""
     return sorted(
         round(float(x), 3)
@@ -34,14 +34,14 @@ def markers(at: Any) -> list[float]:
 
 
 @pytest.fixture
-def planned(bench: Benches) -> Any:
+def planned(bench: Benches) -> DisplayBench:
     """A task with a solution of two parts of four points; the first one is shown."""
     at = bench(MotionPlanningTasks(paused=True, position=0.0))
     plan_task(at)
     return at
 
 
-def test_stages_are_a_tree_with_their_numbers_of_solutions(planned: Any) -> None:
+def test_stages_are_a_tree_with_their_numbers_of_solutions(planned: DisplayBench) -> None:
     statuses = planned.statuses()
     assert statuses["1 pick"] == ("OK", "2 solutions.")
     assert statuses["1.1 approach"] == ("OK", "1 solution, 1 failed, 0.50 s.")
@@ -51,7 +51,9 @@ def test_stages_are_a_tree_with_their_numbers_of_solutions(planned: Any) -> None
     assert offered["solution"] == {"7: pick": 7, "8: pick": 8, "5: approach": 5}
 
 
-def test_each_part_of_a_solution_has_the_scene_that_the_one_before_led_to(planned: Any) -> None:
+def test_each_part_of_a_solution_has_the_scene_that_the_one_before_led_to(
+    planned: DisplayBench,
+) -> None:
     assert planned.statuses()["Solution"] == ("OK", "Solution 7: 2 parts, cost 1.5.")
     for position, stage, x, objects, hint in (
         (0.0, "Part 1 of 2: 'approach'.", 3.0, 2, 5.0),
@@ -65,14 +67,14 @@ def test_each_part_of_a_solution_has_the_scene_that_the_one_before_led_to(planne
         assert markers(planned) == [hint]
 
 
-def test_markers_are_those_of_the_part_or_of_all(planned: Any) -> None:
+def test_markers_are_those_of_the_part_or_of_all(planned: DisplayBench) -> None:
     planned.set("markers.all_at_once", True)
     assert markers(planned) == [6.0, 11.0]
     planned.set("markers.show_markers", False)
     assert markers(planned) == []
 
 
-def test_a_chosen_solution_is_requested_from_its_task(planned: Any) -> None:
+def test_a_chosen_solution_is_requested_from_its_task(planned: DisplayBench) -> None:
     planned.set("solution", 8)
     planned.settle()
     assert planned.statuses()["Solution"] == ("OK", "Solution 7: 1 part, cost 1.5.")
@@ -84,7 +86,7 @@ def test_a_chosen_solution_is_requested_from_its_task(planned: Any) -> None:
     assert text.startswith("Solution 5: No node offers /get_solution_robot_1.")
 
 
-def test_a_task_that_begins_again_forgets_its_solution(planned: Any) -> None:
+def test_a_task_that_begins_again_forgets_its_solution(planned: DisplayBench) -> None:
     tell(planned, "TaskDescription", {"task_id": "robot_1"}, "/description")
     statuses = planned.statuses()
     assert "1 pick" not in statuses
@@ -110,7 +112,7 @@ def test_stages_that_name_each_other_or_nothing_are_listed_at_most_once(bench: B
     assert {key for key in at.statuses() if key[:1].isdigit()} == {"1 c", "2 d"}
 
 
-def test_an_answer_without_a_solution_is_a_warning(planned: Any) -> None:
+def test_an_answer_without_a_solution_is_a_warning(planned: DisplayBench) -> None:
     service = "moveit_task_constructor_msgs/srv/GetSolution"
     planned.serve("/get_solution_robot_1", service, {"solution": SOLUTION | {"task_id": ""}})
     planned.set("solution", 5)

@@ -13,6 +13,7 @@ from scipy.ndimage import distance_transform_edt
 from turtlebot import MAP, ORIGIN, RESOLUTION, START, messages, needs_bag, needs_map
 
 from webviz.data.messages import decode
+from webviz.shell.testing import DisplayBench
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.odometry import Odometry
 
@@ -21,7 +22,7 @@ BLACK = 90
 pytestmark = needs_bag
 
 
-def load_transforms(bench: Any) -> None:
+def load_transforms(bench: DisplayBench) -> None:
     """All transforms of the bag at once, so that no message has to wait."""
     bench.buffer.cache_time_ns = 10**12
     for topic, type_name, _, data in messages("/tf", "/tf_static"):

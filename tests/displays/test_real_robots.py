@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -15,6 +14,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
 from webviz.data.messages import decode
+from webviz.shell.testing import DisplayBench
 from webviz_displays.robot_model import RobotModel
 from webviz_urdf import load_file
 
@@ -34,7 +34,7 @@ FILES = (
 )
 
 
-def said_of_visuals(bench: Any) -> tuple[int, int]:
+def said_of_visuals(bench: DisplayBench) -> tuple[int, int]:
     """Return the number of visuals the display reports as loaded, and their total."""
     statuses = re.search(r"(\d+) of (\d+) visuals loaded", bench.statuses()["URDF"][1])
     assert statuses is not None
@@ -42,7 +42,7 @@ def said_of_visuals(bench: Any) -> tuple[int, int]:
     return loaded, total
 
 
-def drawn_visuals(bench: Any) -> int:
+def drawn_visuals(bench: DisplayBench) -> int:
     return sum(" visual " in key for key in bench.nodes())
 
 

@@ -8,6 +8,7 @@ import pytest
 from inspecting import Benches
 from robot_arm import is_loaded, wait
 
+from webviz.shell.testing import DisplayBench
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model.parts import GREY
 
@@ -28,7 +29,7 @@ RAIL = """
 
 
 @pytest.fixture
-def rail(bench: Benches) -> Any:
+def rail(bench: Benches) -> DisplayBench:
     """The robot, 5 m along x, without a joint state."""
     at = bench(RobotModel(joint_source="Joint states"))
     at.transform("map", "base", (5.0, 0.0, 0.0))
@@ -37,13 +38,13 @@ def rail(bench: Benches) -> Any:
     return at
 
 
-def report(at: Any, **positions: float) -> None:
+def report(at: DisplayBench, **positions: float) -> None:
     state = {"name": list(positions), "position": list(positions.values())}
     at.send("sensor_msgs/msg/JointState", state, topic="/joint_states")
     at.turn()
 
 
-def test_joint_states_of_several_publishers_place_the_links(rail: Any) -> None:
+def test_joint_states_of_several_publishers_place_the_links(rail: DisplayBench) -> None:
     assert rail.statuses()["Joints"][0] == "ERROR"
     report(rail, slide=0.5)
     level, text = rail.statuses()["Joints"]
@@ -61,7 +62,7 @@ def test_joint_states_of_several_publishers_place_the_links(rail: Any) -> None:
     assert rail.poses()["mast visual visual_0"].position == pytest.approx((6.5, 0.0, 0.0))
 
 
-def test_the_root_link_needs_a_transform(rail: Any) -> None:
+def test_the_root_link_needs_a_transform(rail: DisplayBench) -> None:
     report(rail, slide=0.5, turn=0.0)
     rail.fixed_frame = "elsewhere"
     rail.turn()
@@ -81,7 +82,7 @@ def test_the_root_link_needs_a_transform(rail: Any) -> None:
     ],
 )
 def test_invalid_joint_states_are_reported_and_change_nothing(
-    rail: Any, state: dict[str, Any], why: str
+    rail: DisplayBench, state: dict[str, Any], why: str
 ) -> None:
     report(rail, slide=0.5, turn=0.0)
     before = rail.poses()
@@ -97,7 +98,7 @@ def test_invalid_joint_states_are_reported_and_change_nothing(
 
 
 def test_names_without_end_are_not_all_remembered(
-    rail: Any, monkeypatch: pytest.MonkeyPatch
+    rail: DisplayBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.robot_model.joint_states.MAX_JOINTS", 3)
     report(rail, **{f"unknown_{i}": 0.0 for i in range(2)})
@@ -107,7 +108,7 @@ def test_names_without_end_are_not_all_remembered(
     assert "turn" in rail.statuses()["Joints"][1]
 
 
-def test_the_update_interval_holds_links_until_the_next_round(rail: Any) -> None:
+def test_the_update_interval_holds_links_until_the_next_round(rail: DisplayBench) -> None:
     rail.set("update_interval", 1.0)
     report(rail, slide=0.1, turn=0.0)
     rail.turn(1.0)

@@ -10,13 +10,13 @@ from moveit_scenes import moveit
 from robot_arm import ARM, describe, place_arm
 
 from webviz import Mesh
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.moveit import RobotState
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model.parts import GREY, JointSettings, LinkSettings
 
 
-def test_a_link_that_loses_its_transform_turns_grey_where_it_was(arm) -> None:
+def test_a_link_that_loses_its_transform_turns_grey_where_it_was(arm: DisplayBench) -> None:
     before = arm.poses()["tool visual grip"]
     arm.buffer.clear()  # forgets what moves
     arm.turn()
@@ -34,7 +34,7 @@ def test_a_link_that_loses_its_transform_turns_grey_where_it_was(arm) -> None:
     assert arm.statuses()["Links"][0] == "OK"
 
 
-def test_a_link_that_never_had_a_transform_is_not_drawn(bench) -> None:
+def test_a_link_that_never_had_a_transform_is_not_drawn(bench: Benches) -> None:
     at = bench(RobotModel())
     at.transform("map", "base", (1.0, 0.0, 0.0))
     describe(at, ARM)
@@ -43,7 +43,7 @@ def test_a_link_that_never_had_a_transform_is_not_drawn(bench) -> None:
     assert "tool" in at.statuses()["Links"][1]
 
 
-def test_the_prefix_names_the_frames_of_one_robot_of_several(bench) -> None:
+def test_the_prefix_names_the_frames_of_one_robot_of_several(bench: Benches) -> None:
     at = bench(RobotModel(tf_prefix="robot_1"))
     at.transform("map", "robot_1/base", (1.0, 0.0, 0.0))
     at.transform("map", "robot_1/tool", (2.0, 0.0, 0.0))
@@ -56,7 +56,9 @@ def test_the_prefix_names_the_frames_of_one_robot_of_several(bench) -> None:
     assert at.poses()["base visual visual_0"].position == pytest.approx((9.0, 0.0, 0.0))
 
 
-def test_links_without_a_transform_are_counted_with_one_reason_each(bench) -> None:
+def test_links_without_a_transform_are_counted_with_one_reason_each(
+    bench: Benches,
+) -> None:
     links = "".join(f'<link name="l{n}"/>' for n in range(20))
     joints = "".join(
         f'<joint name="j{n}" type="{"fixed" if n < 9 else "continuous"}"><parent link="l0"/>'
@@ -78,7 +80,7 @@ def test_links_without_a_transform_are_counted_with_one_reason_each(bench) -> No
     assert "l5 and 14 more" in statuses["Links"][1]
 
 
-def test_a_missing_fixed_frame_is_reported_once_for_all_links(bench) -> None:
+def test_a_missing_fixed_frame_is_reported_once_for_all_links(bench: Benches) -> None:
     at = bench(RobotModel())
     place_arm(at)
     at.fixed_frame = "earth"
@@ -87,7 +89,7 @@ def test_a_missing_fixed_frame_is_reported_once_for_all_links(bench) -> None:
     assert len(sentences) == 1
 
 
-def test_links_move_no_more_often_than_the_update_interval(bench) -> None:
+def test_links_move_no_more_often_than_the_update_interval(bench: Benches) -> None:
     at = bench(RobotModel(update_interval=1.0))
     place_arm(at)
     describe(at, ARM)
@@ -98,7 +100,7 @@ def test_links_move_no_more_often_than_the_update_interval(bench) -> None:
         assert at.poses()["tool visual grip"].position[1] == pytest.approx(expected)
 
 
-def test_a_trail_is_the_last_two_metres_of_a_links_way(bench) -> None:
+def test_a_trail_is_the_last_two_metres_of_a_links_way(bench: Benches) -> None:
     at = bench(RobotModel(links={"tool": LinkSettings(show_trail=True)}))
     place_arm(at)
     describe(at, ARM)
@@ -117,7 +119,9 @@ def test_a_trail_is_the_last_two_metres_of_a_links_way(bench) -> None:
     assert "tool trail" not in at.nodes()
 
 
-def test_statuses_of_shown_axes_give_poses_of_links_and_motions_of_joints(bench) -> None:
+def test_statuses_of_shown_axes_give_poses_of_links_and_motions_of_joints(
+    bench: Benches,
+) -> None:
     at = bench(RobotModel(links={"tool": LinkSettings(show_axes=True)}))
     place_arm(at)
     describe(at, ARM)
@@ -133,7 +137,9 @@ def test_statuses_of_shown_axes_give_poses_of_links_and_motions_of_joints(bench)
     )
 
 
-def test_settings_for_links_and_joints_that_the_robot_does_not_have_are_named(bench) -> None:
+def test_settings_for_links_and_joints_that_the_robot_does_not_have_are_named(
+    bench: Benches,
+) -> None:
     at = bench(RobotModel(links={"tol": LinkSettings()}, joints={"wirst": JointSettings()}))
     place_arm(at)
     describe(at, ARM)
@@ -142,7 +148,7 @@ def test_settings_for_links_and_joints_that_the_robot_does_not_have_are_named(be
     assert statuses["Joint settings"] == ("WARN", "The robot has no joint named wirst.")
 
 
-def test_a_tick_without_changes_keeps_all_nodes(bench) -> None:
+def test_a_tick_without_changes_keeps_all_nodes(bench: Benches) -> None:
     at = bench(RobotModel(alpha=0.5))
     place_arm(at)
     describe(at, ARM)

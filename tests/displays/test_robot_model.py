@@ -15,6 +15,7 @@ import pytest
 import trimesh
 from built_in_checks import BuiltInChecks
 from display_scenes import OTHER_LINKS, robots
+from inspecting import Benches
 from processes import command_lines, send
 from psutil import wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
@@ -24,7 +25,7 @@ import webviz
 import webviz_urdf
 from webviz.data.disk import MAX_THREADS, within
 from webviz.engine.pipeline.background import Workers
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz.shell.testing.display_checks import Change
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model import loading as disk_of_robots
@@ -46,7 +47,7 @@ MESHES = """
 
 
 @pytest.fixture
-def slow_arm(tmp_path, monkeypatch) -> str:
+def slow_arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     """The arm with a mesh that takes more than a second to read."""
     monkeypatch.setenv("WEBVIZ_MESH_ROOT", str(tmp_path))
     corners = np.random.default_rng(0).random((60_000, 9)).round(3)
@@ -61,7 +62,9 @@ def slow_arm(tmp_path, monkeypatch) -> str:
     )
 
 
-def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(arm) -> None:
+def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(
+    arm: DisplayBench,
+) -> None:
     assert set(arm.nodes()) == {"base visual visual_0", "tool visual grip"}
     assert arm.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
     assert arm.poses()["tool visual grip"].position == pytest.approx((1.0, 3.0, -2.0))
@@ -72,7 +75,7 @@ def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(a
     assert statuses["Links"] == ("OK", "2 links placed by transforms.")
 
 
-def test_the_demo_robot_is_drawn_whole(bench) -> None:
+def test_the_demo_robot_is_drawn_whole(bench: Benches) -> None:
     at = bench(RobotModel(package_paths=PACKAGES), fixed_frame="base_link")
     robot = webviz_urdf.load_file(DEMO, webviz_urdf.Resolver(PACKAGES))
     for joint in robot.joints.values():
@@ -93,7 +96,7 @@ def test_the_demo_robot_is_drawn_whole(bench) -> None:
             )
 
 
-def test_until_a_description_comes_the_topic_is_named(bench) -> None:
+def test_until_a_description_comes_the_topic_is_named(bench: Benches) -> None:
     at = bench(RobotModel())
     at.turn()
     assert at.nodes() == {}
@@ -103,7 +106,7 @@ def test_until_a_description_comes_the_topic_is_named(bench) -> None:
     )
 
 
-def slow_bench(bench, slow_arm):
+def slow_bench(bench: Benches, slow_arm: str) -> DisplayBench:
     """The bench of a robot whose tool is still loading."""
     at = bench(RobotModel())
     place_arm(at)
@@ -112,7 +115,9 @@ def slow_bench(bench, slow_arm):
     return at
 
 
-def test_a_robot_is_loaded_beside_the_frame_loop_with_a_status(bench, slow_arm) -> None:
+def test_a_robot_is_loaded_beside_the_frame_loop_with_a_status(
+    bench: Benches, slow_arm: str
+) -> None:
     at = slow_bench(bench, slow_arm)
     assert at.statuses()["Loading"] == ("IDLE", "Loading: 1 of 2 shapes, at link 'tool'.")
     assert at.nodes() == {}
@@ -120,7 +125,7 @@ def test_a_robot_is_loaded_beside_the_frame_loop_with_a_status(bench, slow_arm) 
     assert len(at.nodes()) == 2
 
 
-def test_the_newest_description_wins_though_one_hangs(bench, slow_arm) -> None:
+def test_the_newest_description_wins_though_one_hangs(bench: Benches, slow_arm: str) -> None:
     at = slow_bench(bench, slow_arm)
     hanging = [child for child, line in command_lines().items() if "loader" in line]
     send(signal.SIGSTOP, hanging)
@@ -130,7 +135,7 @@ def test_the_newest_description_wins_though_one_hangs(bench, slow_arm) -> None:
     assert not alive
 
 
-def test_no_loading_outlives_the_viewer(slow_arm) -> None:
+def test_no_loading_outlives_the_viewer(slow_arm: str) -> None:
     workers = Workers(lambda: None)
     loading = Loading(LoadRequest(text=slow_arm))
     future = workers.submit(loading.run, stop=loading.stop)
@@ -140,7 +145,7 @@ def test_no_loading_outlives_the_viewer(slow_arm) -> None:
     assert isinstance(future.exception(), LoadingStopped)
 
 
-def test_an_identical_description_is_not_loaded_again(arm) -> None:
+def test_an_identical_description_is_not_loaded_again(arm: DisplayBench) -> None:
     before = arm.nodes()
     arm.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
     arm.turn()
@@ -149,7 +154,9 @@ def test_an_identical_description_is_not_loaded_again(arm) -> None:
     assert all(after[key] is before[key] for key in before)
 
 
-def test_a_new_description_replaces_the_robot_and_the_old_one_stays_till_then(arm) -> None:
+def test_a_new_description_replaces_the_robot_and_the_old_one_stays_till_then(
+    arm: DisplayBench,
+) -> None:
     other = ARM.replace('name="grip"', 'name="claw"')
     arm.send("std_msgs/msg/String", {"data": other}, topic="/robot_description")
     arm.turn()
@@ -161,13 +168,13 @@ def test_a_new_description_replaces_the_robot_and_the_old_one_stays_till_then(ar
 @pytest.mark.parametrize(
     "text", ["", "no robot", "<robot name='r'><link name='a'/><link name='b'/></robot>"]
 )
-def test_an_invalid_description_is_an_error_and_draws_nothing(arm, text) -> None:
+def test_an_invalid_description_is_an_error_and_draws_nothing(arm: DisplayBench, text: str) -> None:
     arm.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
     wait(arm, lambda: arm.statuses().get("URDF", ("",))[0] == "ERROR")
     assert arm.nodes() == {}
 
 
-def test_missing_meshes_are_listed_while_the_rest_is_drawn(bench) -> None:
+def test_missing_meshes_are_listed_while_the_rest_is_drawn(bench: Benches) -> None:
     at = bench(RobotModel(), fixed_frame="base")
     at.transform("base", "other")
     describe(at, MESHES)
@@ -179,7 +186,7 @@ def test_missing_meshes_are_listed_while_the_rest_is_drawn(bench) -> None:
     assert text.startswith("1 shape missing. Link 'base': Package 'nowhere'")
 
 
-def test_collision_shapes_are_read_only_when_enabled(arm) -> None:
+def test_collision_shapes_are_read_only_when_enabled(arm: DisplayBench) -> None:
     arm.set("collision_enabled", True)
     wait(arm, lambda: "base collision collision_0" in arm.nodes())
     assert "base visual visual_0" in arm.nodes()
@@ -190,13 +197,13 @@ def test_collision_shapes_are_read_only_when_enabled(arm) -> None:
     assert arm.statuses()["Shapes"][0] == "WARN"
 
 
-def test_disabled_collision_shapes_are_not_waited_for(arm) -> None:
+def test_disabled_collision_shapes_are_not_waited_for(arm: DisplayBench) -> None:
     arm.set("collision_enabled", True)
     arm.set("collision_enabled", False)
     assert "Loading" not in arm.statuses()
 
 
-def test_missing_collision_meshes_count_only_when_enabled(bench) -> None:
+def test_missing_collision_meshes_count_only_when_enabled(bench: Benches) -> None:
     at = bench(RobotModel(collision_enabled=True), fixed_frame="base")
     at.transform("base", "other")
     describe(at, MESHES)
@@ -206,7 +213,7 @@ def test_missing_collision_meshes_count_only_when_enabled(bench) -> None:
 
 
 @pytest.fixture
-def of_file(bench, tmp_path):
+def of_file(bench: Benches, tmp_path: Path) -> DisplayBench:
     """The bench of an arm that is described by a file."""
     path = tmp_path / "arm.urdf"
     path.write_text(ARM)
@@ -216,12 +223,12 @@ def of_file(bench, tmp_path):
     return at
 
 
-def test_a_file_is_drawn_without_any_topic(of_file) -> None:
+def test_a_file_is_drawn_without_any_topic(of_file: DisplayBench) -> None:
     assert set(of_file.nodes()) == {"base visual visual_0", "tool visual grip"}
 
 
 @pytest.mark.parametrize("path", ["/tmp/a\0b.urdf", "~nobody there/a.urdf", "~\0/a", "/proc/kmsg"])
-def test_a_path_of_no_file_is_refused_by_a_sentence(bench, path) -> None:
+def test_a_path_of_no_file_is_refused_by_a_sentence(bench: Benches, path: str) -> None:
     at = bench(RobotModel(description_source="File", description_file=path))
     wait(at, lambda: "URDF" in at.statuses())
     level, text = at.statuses()["URDF"]
@@ -229,14 +236,16 @@ def test_a_path_of_no_file_is_refused_by_a_sentence(bench, path) -> None:
     assert "is not a usable path" in text or "cannot be read: " in text
 
 
-def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(of_file) -> None:
+def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(of_file: DisplayBench) -> None:
     assert of_file.runner.subscriptions() == {}
     assert not [key for key in of_file.statuses() if key.startswith("Topic")]
     of_file.set("description_source", "Topic")
     assert set(of_file.runner.subscriptions()) == {"/robot_description"}
 
 
-def test_description_files_that_never_respond_leave_the_disk_to_others(monkeypatch) -> None:
+def test_description_files_that_never_respond_leave_the_disk_to_others(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """Such as 40 on a dead network mount: configs are saved all the same."""
     mounted = threading.Event()
 
@@ -253,7 +262,9 @@ def test_description_files_that_never_respond_leave_the_disk_to_others(monkeypat
         mounted.set()
 
 
-def test_the_frame_loop_does_not_wait_for_the_disk_of_a_description_file(bench, tmp_path) -> None:
+def test_the_frame_loop_does_not_wait_for_the_disk_of_a_description_file(
+    bench: Benches, tmp_path: Path
+) -> None:
     """Such as a dead network mount."""
     path = tmp_path / "arm.urdf"
     path.write_text(ARM)
@@ -282,7 +293,9 @@ def test_the_frame_loop_does_not_wait_for_the_disk_of_a_description_file(bench, 
     ("path", "level", "sentence"),
     [("", "WARN", "No description file"), ("gone.urdf", "ERROR", "gone.urdf")],
 )
-def test_a_missing_file_is_reported(bench, tmp_path, path, level, sentence) -> None:
+def test_a_missing_file_is_reported(
+    bench: Benches, tmp_path: Path, path: str, level: str, sentence: str
+) -> None:
     path = path and str(tmp_path / path)
     at = bench(RobotModel(description_source="File", description_file=path))
     wait(at, lambda: "URDF" in at.statuses())
@@ -290,7 +303,9 @@ def test_a_missing_file_is_reported(bench, tmp_path, path, level, sentence) -> N
     assert sentence in at.statuses()["URDF"][1]
 
 
-def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_them(bench) -> None:
+def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_them(
+    bench: Benches,
+) -> None:
     at = bench(RobotModel())
     at.turn()
     at.send("std_msgs/msg/String", {"data": ARM})
@@ -332,7 +347,7 @@ class TestRobotModel(BuiltInChecks):
         return [[str(folder)]]
 
 
-def test_selecting_link_of_a_robot(arm: Any) -> None:
+def test_selecting_link_of_a_robot(arm: DisplayBench) -> None:
     check_details(
         arm.pick("base visual visual_0", None, (0.5, 0.0, 0.0)),
         "Link base",

@@ -12,7 +12,9 @@ point = st.tuples(*[st.floats(-100, 100)] * 3)
 
 
 @given(point, point)
-def test_a_rod_leads_from_its_tail_to_its_tip(tail, tip) -> None:
+def test_a_rod_leads_from_its_tail_to_its_tip(
+    tail: tuple[float, float, float], tip: tuple[float, float, float]
+) -> None:
     (position,), (scale,), (wxyz,) = rods([tail], [tip], 0.1)
     half = scale[2] / 2 * matrices(wxyz)[:, 2]
     assert np.linalg.norm(wxyz) == pytest.approx(1.0)

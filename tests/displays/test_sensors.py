@@ -77,7 +77,7 @@ def test_a_cone_needs_a_field_of_view(turned: Benches, angle: float) -> None:
 
 def test_former_ranges_stay(turned: Benches) -> None:
     at = turned(Range(buffer_length=2), *map(measured, (1.0, 2.0, 3.0)))
-    assert sorted(node.scales[0, 2] for _, _, node in at.scene.visible()) == [2.0, 3.0]
+    assert sorted(node.scales[0, 2] for node in at.nodes().values()) == [2.0, 3.0]
 
 
 @pytest.mark.parametrize(
@@ -98,6 +98,7 @@ def test_a_measurement_colours_a_point_at_its_sensor(
     assert at.nodes()["points"].colors.tolist() == [list(color)]
     assert at.statuses()["Value"] == ("OK", status)
     scale = at.runner.report().color_scale
+    assert scale is not None
     assert (scale.low, scale.high) == (display().min_intensity, display().max_intensity)
 
 

@@ -1,34 +1,37 @@
 """The TF display: frames to batched nodes, and how they age."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import frames
 from inspecting import QUARTER, Benches
+from numpy.typing import NDArray
 
 from webviz import Axes as AxesNode
 from webviz import Instances, Labels
 from webviz.data.rotations import matrices
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.tf import TF
 
 SECOND = 1_000_000_000
 
 
-def near(at, key):
+def near(at: DisplayBench, key: str) -> NDArray[np.float64]:
     """Positions of a node's batch in the fixed frame."""
     node, base = at.nodes()[key], np.array(at.poses()[key].position)
     return (node.positions if hasattr(node, "positions") else node.segments) + base
 
 
-def ends(at, key):
+def ends(at: DisplayBench, key: str) -> NDArray[np.float64]:
     """Tails and tips (N, 2, 3) of rods in the fixed frame."""
     node = at.nodes()[key]
     half = node.scales[:, 2:] / 2 * matrices(node.wxyzs)[:, :, 2]
     return np.stack((near(at, key) - half, near(at, key) + half), axis=1)
 
 
-def age_one_frame(at, seconds: float) -> None:
+def age_one_frame(at: DisplayBench, seconds: float) -> None:
     """A frame published once, so long ago."""
     at.transform("map", "robot", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     at.turn()
@@ -36,12 +39,12 @@ def age_one_frame(at, seconds: float) -> None:
 
 
 @pytest.fixture
-def at(bench):
+def at(bench: Benches) -> DisplayBench:
     """The bench of the TF display."""
     return bench(TF())
 
 
-def test_every_frame_has_axes_where_it_is(at) -> None:
+def test_every_frame_has_axes_where_it_is(at: DisplayBench) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("odom", "robot", (0.0, 2.0, 0.0), (0.0, 0.0, 1.0, 0.0))
     at.turn()
@@ -54,7 +57,7 @@ def test_every_frame_has_axes_where_it_is(at) -> None:
     assert at.statuses()["Frames"] == ("OK", "3 frames shown.")
 
 
-def test_arrows_point_from_child_to_parent_in_the_colours_of_rviz(at) -> None:
+def test_arrows_point_from_child_to_parent_in_the_colours_of_rviz(at: DisplayBench) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
     shafts, heads = at.nodes()["shafts"], at.nodes()["heads"]
@@ -71,13 +74,17 @@ def test_arrows_point_from_child_to_parent_in_the_colours_of_rviz(at) -> None:
 
 
 @pytest.mark.parametrize(("distance", "has_arrow"), [(0.0, False), (0.001, False), (0.0011, True)])
-def test_a_frame_within_a_millimetre_of_its_parent_has_no_arrow(at, distance, has_arrow) -> None:
+def test_a_frame_within_a_millimetre_of_its_parent_has_no_arrow(
+    at: DisplayBench, distance: float, has_arrow: bool
+) -> None:
     at.transform("map", "odom", (distance, 0.0, 0.0))
     at.turn()
     assert ("shafts" in at.nodes()) == has_arrow
 
 
-def test_an_arrow_shorter_than_a_head_has_a_flat_head_and_stays_between_its_frames(at) -> None:
+def test_an_arrow_shorter_than_a_head_has_a_flat_head_and_stays_between_its_frames(
+    at: DisplayBench,
+) -> None:
     for name, distance in (("near", 0.05), ("nearer", 0.01), ("far", 0.5)):
         at.transform("map", name, (0.0, 0.0, distance))
     at.turn()
@@ -87,7 +94,7 @@ def test_an_arrow_shorter_than_a_head_has_a_flat_head_and_stays_between_its_fram
     assert np.sort(ends(at, "shafts")[:, 0, 2]) == pytest.approx((0.01, 0.05, 0.5), abs=1e-6)
 
 
-def test_names_are_drawn_below_their_frames_when_enabled(bench) -> None:
+def test_names_are_drawn_below_their_frames_when_enabled(bench: Benches) -> None:
     at = bench(TF(marker_scale=2.0))
     at.transform("map", "odom", (1.0, 0.0, 3.0))
     at.turn()
@@ -101,7 +108,7 @@ def test_names_are_drawn_below_their_frames_when_enabled(bench) -> None:
     assert labels.height == pytest.approx(0.2)
 
 
-def test_each_kind_of_mark_has_its_switch(at) -> None:
+def test_each_kind_of_mark_has_its_switch(at: DisplayBench) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
     at.set("show_axes", False)
@@ -110,7 +117,7 @@ def test_each_kind_of_mark_has_its_switch(at) -> None:
     assert at.nodes() == {}
 
 
-def test_marker_scale_scales_everything(bench) -> None:
+def test_marker_scale_scales_everything(bench: Benches) -> None:
     at = bench(TF(marker_scale=0.5))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
@@ -127,7 +134,9 @@ def test_marker_scale_scales_everything(bench) -> None:
         (12.5, (178, 178, 178), 0.5),
     ],
 )
-def test_an_ageing_frame_fades(bench, age, red, opacity) -> None:
+def test_an_ageing_frame_fades(
+    bench: Benches, age: float, red: tuple[int, int, int], opacity: float
+) -> None:
     at = bench(TF(frame_timeout=15.0, frames={"map": False}))
     age_one_frame(at, age)
     faint = "faint " if opacity < 1.0 else ""
@@ -141,14 +150,16 @@ def test_an_ageing_frame_fades(bench, age, red, opacity) -> None:
     assert ends(at, f"{faint}old axes")[1] == pytest.approx(expected, abs=1e-6)
 
 
-def test_a_fresh_frame_has_its_colours(bench) -> None:
+def test_a_fresh_frame_has_its_colours(bench: Benches) -> None:
     at = bench(TF(frames={"map": False}))
     age_one_frame(at, 4.9)
     assert "axes" in at.nodes()
     assert "old axes" not in at.nodes()
 
 
-def test_a_frame_beyond_the_timeout_is_hidden_counted_and_comes_back(bench) -> None:
+def test_a_frame_beyond_the_timeout_is_hidden_counted_and_comes_back(
+    bench: Benches,
+) -> None:
     at = bench(TF(frame_timeout=15.0))
     age_one_frame(at, 15.1)
     assert near(at, "axes").tolist() == [[0.0, 0.0, 0.0]]
@@ -162,14 +173,14 @@ def test_a_frame_beyond_the_timeout_is_hidden_counted_and_comes_back(bench) -> N
     assert at.statuses()["Frames"] == ("OK", "2 frames shown.")
 
 
-def test_while_ros_time_stands_still_nothing_ages(at) -> None:
+def test_while_ros_time_stands_still_nothing_ages(at: DisplayBench) -> None:
     age_one_frame(at, 0.0)
     for _ in range(3):
         at.turn(0.0)
     assert len(at.nodes()["axes"].positions) == 2
 
 
-def test_static_frames_never_age(bench) -> None:
+def test_static_frames_never_age(bench: Benches) -> None:
     at = bench(TF(frame_timeout=1.0))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
@@ -188,7 +199,9 @@ def test_static_frames_never_age(bench) -> None:
         ({"all_enabled": False, "frames": {"map": True}}, {"map"}),
     ],
 )
-def test_filters_and_switches_choose_the_frames(bench, properties, names) -> None:
+def test_filters_and_switches_choose_the_frames(
+    bench: Benches, properties: dict[str, Any], names: set[str]
+) -> None:
     at = bench(TF(show_names=True, **properties))
     at.transform("map", "left_wheel", (0.0, 1.0, 0.0))
     at.transform("map", "right_wheel", (0.0, -1.0, 0.0))
@@ -196,7 +209,7 @@ def test_filters_and_switches_choose_the_frames(bench, properties, names) -> Non
     assert set(at.nodes()["names"].texts) == names
 
 
-def test_a_frame_that_appears_later_goes_through_the_filters_too(bench) -> None:
+def test_a_frame_that_appears_later_goes_through_the_filters_too(bench: Benches) -> None:
     at = bench(TF(show_names=True, filter_blacklist="wheel"))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
@@ -207,7 +220,7 @@ def test_a_frame_that_appears_later_goes_through_the_filters_too(bench) -> None:
     assert set(at.nodes()["names"].texts) == {"map", "odom", "wheel"}
 
 
-def test_an_arrow_leads_to_the_new_parent_when_a_frame_changes_it(at) -> None:
+def test_an_arrow_leads_to_the_new_parent_when_a_frame_changes_it(at: DisplayBench) -> None:
     at.transform("map", "shelf", (0.0, 5.0, 0.0))
     at.transform("map", "box", (3.0, 0.0, 0.0), stamp_ns=at.now_ns)
     at.turn()
@@ -217,7 +230,7 @@ def test_an_arrow_leads_to_the_new_parent_when_a_frame_changes_it(at) -> None:
     assert tips == {(0.0, 0.0, 0.0), (0.0, 5.0, 0.0)}
 
 
-def test_far_from_the_origin_a_millimetre_is_not_lost(bench) -> None:
+def test_far_from_the_origin_a_millimetre_is_not_lost(bench: Benches) -> None:
     at = bench(TF(), fixed_frame="utm")
     x = 691_603.125
     at.transform("utm", "robot", (x, 5_334_760.375, 0.0))
@@ -227,7 +240,7 @@ def test_far_from_the_origin_a_millimetre_is_not_lost(bench) -> None:
     assert xs == pytest.approx([x, x + 0.001_953_125], abs=1e-5)
 
 
-def test_between_updates_the_picture_stays(bench) -> None:
+def test_between_updates_the_picture_stays(bench: Benches) -> None:
     at = bench(TF(update_interval=1.0))
     at.transform("map", "odom", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
     at.turn()
@@ -240,7 +253,7 @@ def test_between_updates_the_picture_stays(bench) -> None:
     assert at.nodes()["axes"] != before
 
 
-def test_a_new_fixed_frame_moves_all_frames_and_keeps_their_age(bench) -> None:
+def test_a_new_fixed_frame_moves_all_frames_and_keeps_their_age(bench: Benches) -> None:
     at = bench(TF(show_names=True))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("odom", "robot", (0.0, 1.0, 0.0), stamp_ns=at.now_ns)

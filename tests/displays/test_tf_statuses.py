@@ -3,20 +3,22 @@
 import tracemalloc
 
 import pytest
+from inspecting import Benches
 
 from webviz import OtherFixedFrame
-from webviz.shell.testing import SECOND
+from webviz.shell.testing import SECOND, DisplayBench
 from webviz_displays.tf import TF
 
 
 @pytest.fixture
-def at(bench):
+def at(bench: Benches) -> DisplayBench:
     """The bench of the TF display."""
     return bench(TF())
 
 
-def test_an_invalid_regular_expression_is_reported_and_ignored(bench) -> None:
-    at = bench(TF(filter_whitelist="(", filter_blacklist="map"))
+def test_an_invalid_regular_expression_is_reported_and_ignored(bench: Benches) -> None:
+    tf = TF(filter_whitelist="(", filter_blacklist="map")
+    at = bench(tf)
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
     level, text = at.statuses()["Filter (whitelist)"]
@@ -24,18 +26,22 @@ def test_an_invalid_regular_expression_is_reported_and_ignored(bench) -> None:
     assert "'(' is not a valid regular expression" in text
     assert len(at.nodes()["axes"].positions) == 1
     at.press("Filter (whitelist)")
-    assert at.display.filter_whitelist == ""
+    assert tf.filter_whitelist == ""
 
 
 @pytest.mark.parametrize("text", ["(a+)+$", r"(\w+)*!", "^(a|aa)*$", "^((a?)+)+$", ".*.*.*.*x"])
-def test_expressions_that_others_match_for_hours_are_answered_at_once(bench, text: str) -> None:
+def test_expressions_that_others_match_for_hours_are_answered_at_once(
+    bench: Benches, text: str
+) -> None:
     at = bench(TF(filter_whitelist=text))
     at.transform("map", "a" * 5000 + "b", (1.0, 0.0, 0.0))
     at.turn()
     assert at.nodes() == {}
 
 
-def test_an_expression_beyond_linear_time_is_reported_and_ignored(bench) -> None:
+def test_an_expression_beyond_linear_time_is_reported_and_ignored(
+    bench: Benches,
+) -> None:
     at = bench(TF(filter_whitelist="(?=odom)"))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
@@ -43,7 +49,7 @@ def test_an_expression_beyond_linear_time_is_reported_and_ignored(bench) -> None
     assert at.nodes()
 
 
-def test_a_long_name_takes_no_memory_for_each_frame(at) -> None:
+def test_a_long_name_takes_no_memory_for_each_frame(at: DisplayBench) -> None:
     for number in range(2000):
         at.transform("map", f"f{number}")
     at.transform("map", 50_000 * "n")
@@ -55,14 +61,14 @@ def test_a_long_name_takes_no_memory_for_each_frame(at) -> None:
     assert peak < 50e6
 
 
-def test_without_any_transform_the_topic_to_look_at_is_named(at) -> None:
+def test_without_any_transform_the_topic_to_look_at_is_named(at: DisplayBench) -> None:
     at.turn()
     level, text = at.statuses()["Frames"]
     assert level == "WARN"
     assert "/tf" in text
 
 
-def test_with_everything_switched_off_it_is_not_ok(bench) -> None:
+def test_with_everything_switched_off_it_is_not_ok(bench: Benches) -> None:
     at = bench(TF(all_enabled=False))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
@@ -74,7 +80,7 @@ def test_with_everything_switched_off_it_is_not_ok(bench) -> None:
     at.press("Frames")
 
 
-def test_frames_of_another_tree_are_named_and_not_drawn(at) -> None:
+def test_frames_of_another_tree_are_named_and_not_drawn(at: DisplayBench) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("camera", "lens", (1.0, 0.0, 0.0))
     at.turn()
@@ -86,7 +92,7 @@ def test_frames_of_another_tree_are_named_and_not_drawn(at) -> None:
     assert at.fixed_frame_remedy("camera") == OtherFixedFrame("camera")
 
 
-def test_frames_without_a_transform_are_counted_with_a_few_reasons(at) -> None:
+def test_frames_without_a_transform_are_counted_with_a_few_reasons(at: DisplayBench) -> None:
     at.transform("map", "odom")
     for number in range(20):
         at.transform(f"elsewhere_{number // 2}", f"lost_{number}")
@@ -96,7 +102,7 @@ def test_frames_without_a_transform_are_counted_with_a_few_reasons(at) -> None:
     assert "30 have no transform" in statuses["Frames"][1]
 
 
-def test_a_missing_fixed_frame_is_reported_once(at) -> None:
+def test_a_missing_fixed_frame_is_reported_once(at: DisplayBench) -> None:
     for number in range(20):
         at.transform("odom", f"frame_{number}")
     at.turn()
@@ -107,7 +113,7 @@ def test_a_missing_fixed_frame_is_reported_once(at) -> None:
     ]
 
 
-def test_the_tree_of_frames_is_a_status(at) -> None:
+def test_the_tree_of_frames_is_a_status(at: DisplayBench) -> None:
     for parent, child in (("map", "odom"), ("odom", "base"), ("base", "wheel"), ("base", "laser")):
         at.transform(parent, child)
     at.transform("lab", "shelf")
@@ -118,7 +124,7 @@ def test_the_tree_of_frames_is_a_status(at) -> None:
     assert at.statuses()["Tree"] == ("OK", "lab, map (odom (base (laser, wheel), shelf)).")
 
 
-def test_the_status_of_a_large_tree_is_shortened(at) -> None:
+def test_the_status_of_a_large_tree_is_shortened(at: DisplayBench) -> None:
     for number in range(500):
         at.transform(f"f{number}", f"f{number + 1}")
     at.turn()
@@ -127,7 +133,7 @@ def test_the_status_of_a_large_tree_is_shortened(at) -> None:
     assert text.endswith("f39" + ")" * 39 + " and 461 more.")
 
 
-def test_the_status_of_an_enabled_frame_gives_its_position(bench) -> None:
+def test_the_status_of_an_enabled_frame_gives_its_position(bench: Benches) -> None:
     at = bench(TF(frames={"odom": True, "robot": True, "map": True}))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("odom", "robot", (0.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8), stamp_ns=at.now_ns)
@@ -147,7 +153,7 @@ def test_the_status_of_an_enabled_frame_gives_its_position(bench) -> None:
     assert "map" not in statuses  # has no parent
 
 
-def test_a_frame_that_is_lost_within_the_same_second_is_named(at) -> None:
+def test_a_frame_that_is_lost_within_the_same_second_is_named(at: DisplayBench) -> None:
     at.transform("map", "odom")
     at.transform("camera", "lens")
     at.turn()
@@ -157,7 +163,7 @@ def test_a_frame_that_is_lost_within_the_same_second_is_named(at) -> None:
     assert "arm" in at.statuses()
 
 
-def test_the_reason_why_a_frame_is_lost_is_that_of_now(at) -> None:
+def test_the_reason_why_a_frame_is_lost_is_that_of_now(at: DisplayBench) -> None:
     start_ns = at.now_ns
     for seconds in (0, 1):
         at.transform("map", "odom", stamp_ns=start_ns + seconds * SECOND)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from webviz.data.messages import (
     MapMetaData,
@@ -25,7 +26,10 @@ def map_message(cells: np.ndarray) -> OccupancyGrid:
     )
 
 
-def cells_of(width: int, height: int):
+Cells = NDArray[np.int8]
+
+
+def cells_of(width: int, height: int) -> st.SearchStrategy[Cells]:
     """Few rows or columns keep the examples small, and still cross the borders of tiles."""
     return st.integers(0, 2**32 - 1).map(
         lambda seed: (
@@ -35,7 +39,7 @@ def cells_of(width: int, height: int):
 
 
 @st.composite
-def maps_with_updates(draw):
+def maps_with_updates(draw: st.DrawFn) -> tuple[Cells, list[tuple[int, int, Cells]]]:
     width, height = draw(st.sampled_from([(1, 1), (512, 3), (1200, 2), (3, 1025), (513, 513)]))
     cells = draw(cells_of(width, height))
     updates = []
@@ -47,7 +51,9 @@ def maps_with_updates(draw):
 
 
 @given(maps_with_updates())
-def test_folding_updates_gives_the_tiles_of_the_whole_map(case) -> None:
+def test_folding_updates_gives_the_tiles_of_the_whole_map(
+    case: tuple[Cells, list[tuple[int, int, Cells]]],
+) -> None:
     cells, updates = case
     grid = tiled(map_message(cells), "map")
     whole = cells.copy()

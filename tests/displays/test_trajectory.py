@@ -13,7 +13,7 @@ from moveit_scenes import moveit
 from robot_arm import describe, is_loaded, wait
 
 from webviz import Instances, Mesh, Topic
-from webviz.shell.testing import check_details
+from webviz.shell.testing import DisplayBench, check_details
 from webviz_displays.moveit import MotionPlanning, RobotState, Trajectory
 from webviz_displays.moveit.properties import PlannedPath, PlanningRequest
 from webviz_urdf import MeshPart, Surface, glb_parts, write_glb
@@ -57,29 +57,31 @@ def joints(**positions: float) -> dict[str, Any]:
     return {"joint_state": names | {"header": {"frame_id": "map"}}}
 
 
-def bench_of(bench: Benches, display: Any) -> Any:
+def bench_of(bench: Benches, display: Any) -> DisplayBench:
     at = bench(display)
     at.transform("map", "base")
     describe(at, RAIL)
     return at
 
 
-def tell(at: Any, values: dict[str, Any], type_name: str = PATH, topic: str = PATHS) -> None:
+def tell(
+    at: DisplayBench, values: dict[str, Any], type_name: str = PATH, topic: str = PATHS
+) -> None:
     at.send(type_name, values, topic=topic)
     at.turn()
 
 
-def cart(at: Any, prefix: str = "path ") -> float:
+def cart(at: DisplayBench, prefix: str = "path ") -> float:
     return at.poses()[f"{prefix}cart visual visual_0"].position[0]
 
 
 @pytest.fixture
-def rail(bench: Benches) -> Any:
+def rail(bench: Benches) -> DisplayBench:
     """Animated by the clock of the test."""
     return bench_of(bench, Trajectory(robot_description=URDF, use_sim_time=True))
 
 
-def test_a_path_is_played_at_the_chosen_speed(rail: Any) -> None:
+def test_a_path_is_played_at_the_chosen_speed(rail: DisplayBench) -> None:
     tell(rail, path(2.0, 3.0, 4.0, 5.0))
     assert cart(rail) == 2.0
     rail.turn(0.4)
@@ -102,7 +104,9 @@ def test_a_path_is_played_at_the_chosen_speed(rail: Any) -> None:
     assert rail.poses()["path hook visual visual_0"].position == pytest.approx((3.0, 0.0, 6.0))
 
 
-def test_a_new_path_waits_for_the_end_of_the_current_one_or_interrupts_it(rail: Any) -> None:
+def test_a_new_path_waits_for_the_end_of_the_current_one_or_interrupts_it(
+    rail: DisplayBench,
+) -> None:
     tell(rail, path(2.0, 3.0))
     tell(rail, path(4.0, 5.0))
     assert cart(rail) == 2.0
@@ -113,7 +117,7 @@ def test_a_new_path_waits_for_the_end_of_the_current_one_or_interrupts_it(rail: 
     assert cart(rail) == 6.0
 
 
-def test_a_slider_shows_any_point(rail: Any) -> None:
+def test_a_slider_shows_any_point(rail: DisplayBench) -> None:
     tell(rail, path(2.0, 3.0, 4.0))
     rail.set("paused", True)
     rail.set("position", 1.0)
@@ -123,7 +127,7 @@ def test_a_slider_shows_any_point(rail: Any) -> None:
     assert cart(rail) == 3.0
 
 
-def test_several_trajectories_follow_each_other_from_the_start_state(rail: Any) -> None:
+def test_several_trajectories_follow_each_other_from_the_start_state(rail: DisplayBench) -> None:
     one, two = path(2.5, 3.0), path(4.0, 5.0)
     message = {
         "trajectory": [*one["trajectory"], *two["trajectory"]],
@@ -136,7 +140,7 @@ def test_several_trajectories_follow_each_other_from_the_start_state(rail: Any) 
     assert rail.statuses()["Path"][1] == "Point 4 of 4 points, at 2.00 s."
 
 
-def test_a_trail_shows_the_points_that_were_passed(rail: Any) -> None:
+def test_a_trail_shows_the_points_that_were_passed(rail: DisplayBench) -> None:
     rail.set("show_trail", True)
     rail.set("trail_step_size", 2)
     tell(rail, path(2.0, 3.0, 4.0, 5.0))
@@ -188,7 +192,7 @@ def test_models_of_several_materials_are_repeated_part_by_part() -> None:
     ],
 )
 def test_odd_trajectories_are_reported(
-    rail: Any, message: dict[str, Any], key: str, why: str
+    rail: DisplayBench, message: dict[str, Any], key: str, why: str
 ) -> None:
     tell(rail, message)
     rail.turn(1.0)
@@ -196,7 +200,7 @@ def test_odd_trajectories_are_reported(
     assert (level, why in text, len(text) < 500) == ("WARN", True, True)
 
 
-def test_an_invalid_speed_is_named(rail: Any) -> None:
+def test_an_invalid_speed_is_named(rail: DisplayBench) -> None:
     rail.set("state_display_time", "fast")
     rail.turn()
     assert "State Display Time 'fast' is invalid" in rail.statuses()["Speed"][1]
@@ -218,11 +222,11 @@ def test_a_floating_robot_moves_with_its_joint(bench: Benches) -> None:
 
 
 @pytest.fixture
-def state(bench: Benches) -> Any:
+def state(bench: Benches) -> DisplayBench:
     return bench_of(bench, RobotState(robot_description=URDF, robot_state_topic=Topic(STATES)))
 
 
-def test_a_state_is_shown_with_the_colors_of_its_links(state: Any) -> None:
+def test_a_state_is_shown_with_the_colors_of_its_links(state: DisplayBench) -> None:
     assert state.statuses()["State"][0] == "WARN"
     red = {"id": "cart", "color": {"r": 1.0, "a": 0.5}}
     tell(state, {"state": joints(slide=3.0), "highlight_links": [red]}, STATE, STATES)

@@ -107,10 +107,11 @@ def test_an_invalid_grid_has_a_status(
 
 def test_costs_have_the_colors_of_their_occupancies(bench: Benches) -> None:
     """The values that Nav2 publishes for the same cells as an occupancy grid."""
-    at = bench(Costmap(alpha=1.0))
+    costmap = Costmap(alpha=1.0)
+    at = bench(costmap)
     costs = [0, 1, 128, 252, 253, 254, 255, 0]
     metadata = {"size_x": 4, "size_y": 2, "resolution": 0.05, "origin": {"orientation": {"w": 1.0}}}
-    values, topic = {"metadata": metadata, "data": costs}, at.display.topic.name
+    values, topic = {"metadata": metadata, "data": costs}, costmap.topic.name
     at.send(COSTMAP, values, frame="map", topic=topic)
     at.turn()
     table = lookup_table("costmap")

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 import photos
+import playwright.sync_api as playwright
 from numpy.typing import NDArray
+from pages import bounds
 
 from tests.page.page_bench import PageBench
 from tests.page.tabs import ViewerTab
@@ -74,11 +76,11 @@ def id_of(viewer: PageBench, name: str) -> str:
     return viewer.rows[topics.index(f"/{name.lower()}")].id
 
 
-def pane(tab: Any, name: str) -> Any:
+def pane(tab: ViewerTab, name: str) -> playwright.Locator:
     return tab.page.get_by_label(f"Image /{name.lower()}", exact=True)
 
 
-def pane_color(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int]:
+def pane_color(tab: ViewerTab, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int]:
     """The colour of a place in a picture, empty as long as there is none."""
     script = """(pane, [x, y]) => {
       const canvas = pane.querySelector("canvas");
@@ -94,8 +96,8 @@ def near(color: list[int], expected: Any, tolerance: int = 12) -> bool:
     return len(color) == 3 and bool(np.abs(np.subtract(color, expected)).max() <= tolerance)
 
 
-def hover(tab: Any, name: str, x: float, y: float) -> str:
-    box = pane(tab, name).locator(".wv-pane-picture").bounding_box()
+def hover(tab: ViewerTab, name: str, x: float, y: float) -> str:
+    box = bounds(pane(tab, name).locator(".wv-pane-picture"))
     scale = min(box["width"] / 160, box["height"] / 120)
     left = box["x"] + (box["width"] - 160 * scale) / 2 + (x + 0.5) * scale
     top = box["y"] + (box["height"] - 120 * scale) / 2 + (y + 0.5) * scale
@@ -103,9 +105,9 @@ def hover(tab: Any, name: str, x: float, y: float) -> str:
     return pane(tab, name).locator(".wv-pane-value").inner_text()
 
 
-def middle(tab: Any) -> tuple[float, float]:
+def middle(tab: ViewerTab) -> tuple[float, float]:
     """The middle of the pane of the picture "Color" in the window."""
-    box = pane(tab, "Color").locator(".wv-pane-body").bounding_box()
+    box = bounds(pane(tab, "Color").locator(".wv-pane-body"))
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 

@@ -15,6 +15,7 @@ from tests.page.image_panes import (
     rgba,
 )
 from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
 from webviz.api.declared import Topic
 from webviz.commands import RemoveDisplay, SetProperty
 from webviz.data.images import CameraModel
@@ -25,7 +26,7 @@ from webviz_displays.markers import MarkerArray
 
 
 @pytest.fixture(scope="module")
-def other(open_lasting_viewer_tab: Callable[..., Any]) -> Any:
+def other(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
     """Another tab, which draws the scene at the size of the page."""
     return open_lasting_viewer_tab(700, 560, resolution=1.0)
 

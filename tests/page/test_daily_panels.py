@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import pytest
+from pages import bounds
 
 from tests.page.opened_panels import open_panel
 from tests.page.page_bench import PageBench, PageServer
@@ -220,8 +221,7 @@ def test_states_are_bands_that_lead_to_their_time(page_server: PageServer, tab: 
     viewer.publish_past(20.0, "/diagnostics", ARRAY, {"status": STATUSES})
     canvas = tab.page.get_by_role("img", name="/diagnostics.status[1].name")
     tab.wait_for(lambda: "No publisher on /x." in tab.text())
-    box = canvas.bounding_box()
-    assert box is not None
+    box = bounds(canvas)
     viewer.source.now = now_ns = time.time_ns()
     canvas.click(position={"x": box["width"] * 0.75, "y": 10})
     tab.wait_for(lambda: viewer.playback.is_live is False)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 from tests.page.everything import named
 from tests.page.opened_panels import open_panel
@@ -73,8 +74,7 @@ def test_a_tool_has_a_gesture_of_its_module(viewer: PageBench, viewer_tab: Viewe
     tab.wait_for(lambda: keep_out.count() and keep_out.get_attribute("aria-disabled") is None)
     assert keep_out.locator("path").get_attribute("d") == tool.icon
     keep_out.click()
-    box = tab.page.locator("canvas").first.bounding_box()
-    assert box is not None
+    box = bounds(tab.page.locator("canvas").first)
     x, y = box["x"] + 150, box["y"] + box["height"] - 80
     tab.page.mouse.move(x, y)
     tab.page.mouse.down()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
+from pages import bounds
 
 from tests.page.image_panes import (
     COLORS,
@@ -26,13 +26,13 @@ from webviz.server.channel.messages import MAX_PANES
 
 
 @pytest.fixture
-def tab(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[Any]:
+def tab(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[ViewerTab]:
     """The tab with two images."""
     with images_in(viewer, viewer_tab) as tab:
         yield tab
 
 
-def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
+def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: ViewerTab) -> None:
     viewer = tab.viewer
     viewer.do(AddDisplay("Image", {"topic": "/gone"}))
     tab.wait_for(lambda: "No publisher on /gone" in pane(tab, "Gone").inner_text())
@@ -41,7 +41,7 @@ def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
 
 
 def test_a_page_asks_for_as_many_pictures_as_the_server_allows(
-    tab: Any, page_server: PageServer, monkeypatch: pytest.MonkeyPatch
+    tab: ViewerTab, page_server: PageServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.server.images.pictures.UNSEEN_S", 0.0)
     viewer = tab.viewer
@@ -57,20 +57,20 @@ def test_a_page_asks_for_as_many_pictures_as_the_server_allows(
     tab.wait_for(lambda: visible_ids() >= set(ids[10:]))
 
 
-def test_two_images_of_one_topic_have_their_names_too(tab: Any) -> None:
+def test_two_images_of_one_topic_have_their_names_too(tab: ViewerTab) -> None:
     tab.viewer.show(image("/front", "Left"), image("/front", "Right"), image("/rear"))
     titles = ["/front (Left)", "/front (Right)", "/rear"]
     tab.wait_for(lambda: tab.page.locator(".wv-pane-head b").all_inner_texts() == titles)
 
 
-def width(tab: Any) -> float:
+def width(tab: ViewerTab) -> float:
     """Return the width of the picture "Color" on the screen, in pixels."""
     canvas = pane(tab, "Color").locator("canvas")
     canvas.wait_for()
-    return float(canvas.bounding_box()["width"])
+    return bounds(canvas)["width"]
 
 
-def pixel_at(tab: Any, x: float, y: float) -> list[float]:
+def pixel_at(tab: ViewerTab, x: float, y: float) -> list[float]:
     """Column and row of the picture "Color" at a place of the window."""
     value = pane(tab, "Color").locator(".wv-pane-value")
     tab.page.mouse.move(0, 0)
@@ -81,7 +81,9 @@ def pixel_at(tab: Any, x: float, y: float) -> list[float]:
     return [float(words[1]), float(words[4])]
 
 
-def test_a_picture_is_zoomed_at_the_mouse_and_moved_and_the_page_is_not_zoomed(tab: Any) -> None:
+def test_a_picture_is_zoomed_at_the_mouse_and_moved_and_the_page_is_not_zoomed(
+    tab: ViewerTab,
+) -> None:
     whole, (x, y) = width(tab), middle(tab)
     there = pixel_at(tab, x + 30, y + 20)
     tab.page.mouse.wheel(0, -1000)
@@ -100,7 +102,7 @@ def test_a_picture_is_zoomed_at_the_mouse_and_moved_and_the_page_is_not_zoomed(t
     tab.wait_for(lambda: width(tab) == pytest.approx(whole))
 
 
-def test_a_picture_is_zoomed_by_keys_and_by_two_fingers(tab: Any) -> None:
+def test_a_picture_is_zoomed_by_keys_and_by_two_fingers(tab: ViewerTab) -> None:
     whole, (x, y) = width(tab), middle(tab)
     there = pixel_at(tab, x, y)
     pane(tab, "Color").locator("canvas").focus()
@@ -130,11 +132,11 @@ def test_a_picture_is_zoomed_by_keys_and_by_two_fingers(tab: Any) -> None:
     tab.wait_for(lambda: width(tab) == pytest.approx(whole))
 
 
-def test_an_image_is_as_high_as_its_picture_and_is_placed_as_a_panel(tab: Any) -> None:
+def test_an_image_is_as_high_as_its_picture_and_is_placed_as_a_panel(tab: ViewerTab) -> None:
     body = pane(tab, "Color").locator(".wv-pane-body")
-    tab.wait_for(lambda: abs((box := body.bounding_box())["width"] / box["height"] - 4 / 3) < 0.02)
-    room = tab.page.locator("#root").bounding_box()
-    tab.page.mouse.move(*((pane(tab, "Color").locator("b").bounding_box())[k] + 5 for k in "xy"))
+    tab.wait_for(lambda: abs((box := bounds(body))["width"] / box["height"] - 4 / 3) < 0.02)
+    room = bounds(tab.page.locator("#root"))
+    tab.page.mouse.move(*(bounds(pane(tab, "Color").locator("b"))[k] + 5 for k in "xy"))
     tab.page.mouse.down()
     tab.page.mouse.move(room["x"] + 100, room["y"] + room["height"] - 10, steps=4)
     tab.page.mouse.up()
@@ -160,8 +162,9 @@ def test_an_image_is_as_high_as_its_picture_and_is_placed_as_a_panel(tab: Any) -
     assert pane(tab, "Depth").locator(".wv-pane-head").inner_text().startswith("/depth")
 
 
-def test_images_and_scene_have_the_same_share_of_a_narrow_window(tab: Any) -> None:
+def test_images_and_scene_have_the_same_share_of_a_narrow_window(tab: ViewerTab) -> None:
     size = tab.page.viewport_size
+    assert size is not None
     tab.page.evaluate("localStorage.clear()")
     tab.page.get_by_label("Size of the images").dblclick(position={"x": 2, "y": 300})
     root, dock = tab.page.locator("#root"), tab.page.get_by_label("Images", exact=True)
@@ -170,7 +173,7 @@ def test_images_and_scene_have_the_same_share_of_a_narrow_window(tab: Any) -> No
         other = "height" if side == "width" else "width"
 
         def are_fair(side: str = side, other: str = other) -> bool:
-            scene, images = root.bounding_box(), dock.bounding_box()
+            scene, images = bounds(root), bounds(dock)
             like = abs(scene[other] - images[other]) < 2
             return like and abs(scene[side] - images[side]) < 50  # of the bar below
 
@@ -178,39 +181,40 @@ def test_images_and_scene_have_the_same_share_of_a_narrow_window(tab: Any) -> No
     tab.page.set_viewport_size(size)
 
 
-def test_panes_fill_the_window_and_leave_it(tab: Any) -> None:
+def test_panes_fill_the_window_and_leave_it(tab: ViewerTab) -> None:
     canvas = pane(tab, "Color").locator("canvas")
-    before = canvas.bounding_box()["width"]
+    before = bounds(canvas)["width"]
     canvas.dblclick()
-    tab.wait_for(lambda: canvas.bounding_box()["width"] > 800)
+    tab.wait_for(lambda: bounds(canvas)["width"] > 800)
     tab.page.keyboard.press("Escape")
-    tab.wait_for(lambda: canvas.bounding_box()["width"] == before)
+    tab.wait_for(lambda: bounds(canvas)["width"] == before)
     button = pane(tab, "Color").get_by_role("button", name="Full size of /color")
     button.click()
-    tab.wait_for(lambda: canvas.bounding_box()["width"] > 800)
+    tab.wait_for(lambda: bounds(canvas)["width"] > 800)
     button.click()
-    tab.wait_for(lambda: canvas.bounding_box()["width"] == before)
+    tab.wait_for(lambda: bounds(canvas)["width"] == before)
     border = tab.page.get_by_label("Size of the images")
     border.focus()
     tab.page.keyboard.press("ArrowLeft")
-    tab.wait_for(lambda: canvas.bounding_box()["width"] > before)
+    tab.wait_for(lambda: bounds(canvas)["width"] > before)
     tab.page.keyboard.press("ArrowRight")
     root = tab.page.locator("#root")
 
     def is_beside() -> bool:
-        scene, box = root.bounding_box(), canvas.bounding_box()
+        scene, box = bounds(root), bounds(canvas)
         return scene["width"] > 100 and scene["x"] + scene["width"] <= box["x"]
 
     tab.wait_for(is_beside)
 
 
-def test_on_a_phone_images_are_below_the_scene(tab: Any) -> None:
+def test_on_a_phone_images_are_below_the_scene(tab: ViewerTab) -> None:
     size = tab.page.viewport_size
+    assert size is not None
     tab.page.set_viewport_size({"width": 400, "height": 800})
     root, canvas = tab.page.locator("#root"), pane(tab, "Color").locator("canvas")
 
     def is_below() -> bool:
-        scene, box = root.bounding_box(), canvas.bounding_box()
+        scene, box = bounds(root), bounds(canvas)
         return scene["width"] == 400 and box["y"] >= scene["y"] + scene["height"] > 100
 
     tab.wait_for(is_below)
@@ -218,4 +222,4 @@ def test_on_a_phone_images_are_below_the_scene(tab: Any) -> None:
     tab.page.get_by_role("button", name="Add display").click(trial=True)  # nothing is above it
     tab.button("Hide the panels").click()
     tab.page.set_viewport_size(size)
-    tab.wait_for(lambda: root.bounding_box()["width"] < size["width"] - 600)
+    tab.wait_for(lambda: bounds(root)["width"] < size["width"] - 600)

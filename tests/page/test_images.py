@@ -53,14 +53,14 @@ def pictures(scene: ViserScene, monkeypatch: pytest.MonkeyPatch) -> list[tuple[s
 
 
 @pytest.fixture
-def tab(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[Any]:
+def tab(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[ViewerTab]:
     """The tab with two images."""
     with images_in(viewer, viewer_tab) as tab:
         yield tab
 
 
 @pytest.fixture(scope="module")
-def other(open_lasting_viewer_tab: Callable[..., Any]) -> Any:
+def other(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
     """Another tab, which draws the scene at the size of the page."""
     return open_lasting_viewer_tab(700, 560, resolution=1.0)
 
@@ -70,7 +70,7 @@ def of(viewer: PageBench, name: str, pictures: list[tuple[str, int]]) -> list[in
     return [size for display, size in pictures if display == id_of(viewer, name)]
 
 
-def test_pictures_have_their_colors_and_hovering_reads_values(tab: Any) -> None:
+def test_pictures_have_their_colors_and_hovering_reads_values(tab: ViewerTab) -> None:
     assert near(pane_color(tab, "Color"), COLORS[108, 80])
     assert near(pane_color(tab, "Depth", (0.02, 0.02)), (0, 0, 0))  # no measurement
     tab.wait_for(lambda: f"x 40 · y 100 · {DEPTHS[100, 40]:.3f} m" in hover(tab, "Depth", 40, 100))
@@ -82,7 +82,10 @@ def test_pictures_have_their_colors_and_hovering_reads_values(tab: Any) -> None:
 
 
 def test_only_what_is_shown_is_sent_and_only_the_newest(
-    tab: Any, scene: ViserScene, pictures: list[tuple[str, int]], monkeypatch: pytest.MonkeyPatch
+    tab: ViewerTab,
+    scene: ViserScene,
+    pictures: list[tuple[str, int]],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("webviz.server.images.pictures.UNSEEN_S", 0.0)
     viewer = tab.viewer
@@ -103,7 +106,7 @@ def test_only_what_is_shown_is_sent_and_only_the_newest(
     assert not scene.is_unseen(depth)
 
 
-def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any) -> None:
+def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: ViewerTab) -> None:
     viewer, red = tab.viewer, np.full((120, 160, 3), (200, 60, 20), np.uint8)
     show_images(viewer, photos.COMPRESSED)
     send(viewer, "Color", photos.COMPRESSED, photos.jpeg(red))
@@ -128,7 +131,7 @@ def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any) -> None:
 
 
 def test_marks_lie_over_the_picture_and_follow_the_zoom(
-    tab: Any, pictures: list[tuple[str, int]]
+    tab: ViewerTab, pictures: list[tuple[str, int]]
 ) -> None:
     viewer = tab.viewer
     marks = pane(tab, "Color").locator(".wv-pane-marks")
@@ -175,7 +178,7 @@ def annotate(viewer: PageBench, fill: tuple[float, float, float]) -> None:
     viewer.turn()
 
 
-def color_of(marks: Any, tab: Any, x: float, y: float) -> list[int]:
+def color_of(marks: Any, tab: ViewerTab, x: float, y: float) -> list[int]:
     """RGBA of the marks where the pane shows a pixel of its picture at a zoom of 1."""
     if not marks.count():
         return []
@@ -215,7 +218,7 @@ RECORD = """async (codec) => {
 }"""
 
 
-def test_video_is_decoded_by_the_page(tab: Any) -> None:
+def test_video_is_decoded_by_the_page(tab: ViewerTab) -> None:
     viewer = tab.viewer
     recorded = tab.page.evaluate(RECORD, "vp09.00.10.08")
     assert recorded is not None
@@ -243,7 +246,7 @@ def test_video_is_decoded_by_the_page(tab: Any) -> None:
     )
 
 
-def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(tab: Any) -> None:
+def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(tab: ViewerTab) -> None:
     tab.page.evaluate("""() => {
       const decode = window.createImageBitmap;
       window.createImageBitmap = async (...image) => {
@@ -265,7 +268,7 @@ def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(tab: Any)
 
 
 def test_two_pages_and_a_flood_leave_no_queue(
-    tab: Any, pictures: list[tuple[str, int]], other: Any
+    tab: ViewerTab, pictures: list[tuple[str, int]], other: ViewerTab
 ) -> None:
     other.wait_for(lambda: pane_color(other, "Color") and pane_color(other, "Depth"))
     for _ in range(FLOOD):

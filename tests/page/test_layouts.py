@@ -7,6 +7,7 @@ from urllib.parse import quote
 
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 from playwright.sync_api import expect
 
 from tests.page.page_bench import PageBench, PageServer
@@ -52,8 +53,7 @@ def docked(tab: ViewerTab) -> dict[str, str]:
 
 
 def middle(element: playwright.Locator) -> tuple[float, float]:
-    box = element.bounding_box()
-    assert box is not None
+    box = bounds(element)
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
@@ -66,8 +66,7 @@ def drag(tab: ViewerTab, element: playwright.Locator, x: float, y: float) -> Non
 
 
 def scene(tab: ViewerTab) -> dict[str, float]:
-    box = tab.page.locator("#root").bounding_box()
-    assert box is not None
+    box = bounds(tab.page.locator("#root"))
     return {key: float(value) for key, value in box.items() if isinstance(value, int | float)}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
+from pages import bounds
 from playwright.sync_api import Locator, expect
 
 from tests.page.page_bench import PageBench
@@ -49,8 +50,7 @@ def test_a_finger_on_a_tool_reads_what_it_does_and_does_not_choose_it(
     viewer.show(tools=[GoalPose(name="Goal")])
     tool = phone.page.locator('.wv-tool[aria-label="Goal"]')
     expect(tool).to_be_visible()
-    box = tool.bounding_box()
-    assert box is not None
+    box = bounds(tool)
     tip = phone.page.get_by_role("tooltip")
     touch("touchStart", (box["x"] + 10.0, box["y"] + 10.0))
     phone.page.wait_for_timeout(HELD_MS)
@@ -106,7 +106,6 @@ def test_menus_and_dialogs_of_a_phone_are_sheets_at_its_bottom(phone: ViewerTab)
 
 
 def _at_the_bottom(sheet: Locator) -> dict[str, float]:
-    box = sheet.bounding_box()
-    assert box is not None
+    box = bounds(sheet)
     height = box["height"]
     return {"x": 0.0, "y": HEIGHT - height, "width": WIDTH, "height": height}

@@ -6,7 +6,7 @@ import itertools
 
 import playwright.sync_api as playwright
 import pytest
-from pages import COARSE
+from pages import COARSE, bounds
 
 from tests.page.everything import Everything, named
 from tests.page.page_bench import SCAN, PageBench
@@ -115,8 +115,7 @@ def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it
     tab = silent
     card = tab.page.get_by_role("region", name="Nothing is published")
     tab.wait_for(card.is_visible)
-    box = card.get_by_text("Start your robot").bounding_box()
-    assert box is not None
+    box = bounds(card.get_by_text("Start your robot"))
     hit = "([x, y]) => document.elementFromPoint(x, y).tagName"
     assert tab.page.evaluate(hit, [box["x"] + 5, box["y"] + 5]) == "CANVAS"
     card.get_by_role("button", name="Close").click()

@@ -36,7 +36,7 @@ def open_menu(viewer_tab: ViewerTab) -> Callable[..., playwright.Locator]:
     return open_menu
 
 
-def ran(viewer_tab: ViewerTab) -> Any:
+def ran(viewer_tab: ViewerTab) -> list[Any]:
     """Return the executed commands."""
     return viewer_tab.page.evaluate("window.ran")
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import PIL.Image
 import pytest
+from pages import bounds
 
 from tests.page.page_bench import PageBench
 from tests.page.tabs import ViewerTab
@@ -63,8 +64,7 @@ def test_the_track_lies_on_the_tiles_and_the_map_follows_it(
     assert color(tab, 40) == (*GREEN, 255)
     publish(viewer, 50.0, 8.001)
     tab.wait_for(lambda: color(tab, -80) == track)
-    box = tab.page.locator(".wv-outdoor canvas").bounding_box()
-    assert box is not None
+    box = bounds(tab.page.locator(".wv-outdoor canvas"))
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     tab.page.mouse.move(x, y)
     there = tab.page.locator(".wv-outdoor-place")

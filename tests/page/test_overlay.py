@@ -6,6 +6,7 @@ import dataclasses
 import time
 
 import pytest
+from pages import bounds
 from playwright.sync_api import expect
 from viser_internals import cut_connections
 
@@ -181,9 +182,7 @@ def test_the_hint_for_the_mouse_leaves_room_for_the_scale(tab: ViewerTab) -> Non
     tab.page.set_viewport_size({"width": 820, "height": 600})
     scale = tab.page.locator(".wv-scale")
     tab.wait_for(scale.is_visible)
-    hint, bar = tab.page.locator(".wv-pointer").bounding_box(), scale.bounding_box()
-    assert hint is not None
-    assert bar is not None
+    hint, bar = bounds(tab.page.locator(".wv-pointer")), bounds(scale)
     assert hint["x"] + hint["width"] < bar["x"]
     tab.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
 

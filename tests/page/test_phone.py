@@ -9,6 +9,7 @@ from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 from tests.page.everything import group, named
 from tests.page.page_bench import SCAN, PageBench, PageServer
@@ -72,8 +73,7 @@ def test_the_scene_is_free_until_the_side_is_opened_over_it(phone: ViewerTab, la
     canvas = phone.page.locator("#root canvas").first.bounding_box()
     phone.button("Show the panels").tap()
     phone.wait_for(lambda: "lab.yaml" in side(phone).inner_text())
-    sheet = side(phone).bounding_box()
-    assert sheet is not None
+    sheet = bounds(side(phone))
     assert (sheet["x"], sheet["width"]) == (0, WIDTH)
     assert 0.25 * HEIGHT < sheet["y"] < 0.45 * HEIGHT
     assert phone.page.locator("#root canvas").first.bounding_box() == canvas
@@ -85,16 +85,14 @@ def test_buttons_can_be_hit_with_a_finger(phone: ViewerTab, lab: Path) -> None:
     phone.viewer.show(path=lab)
     phone.button("Show the panels").tap()
     for name in ("Menu", "Commands", "Hide the panels", "Show the panels"):
-        box = phone.button(name).bounding_box()
-        assert box is not None
+        box = bounds(phone.button(name))
         assert box["height"] >= FINGER_PX, name
         assert box["width"] >= FINGER_PX, name
         assert box["x"] >= 0, name
         assert box["x"] + box["width"] <= WIDTH, name
     phone.button("Menu").tap()
     item = phone.page.get_by_role("menuitem", name="Save Ctrl+S")
-    box = item.bounding_box()
-    assert box is not None
+    box = bounds(item)
     assert box["height"] >= FINGER_PX
     item.tap()
     phone.wait_for_command(Save())
@@ -165,8 +163,7 @@ def test_dialogs_fit(
     phone.button("Menu").tap()
     phone.page.get_by_role("menuitem", name="Save as…").tap()
     assert "with_a_long_name" in phone.page.get_by_role("dialog").inner_text()
-    box = phone.page.get_by_role("dialog").bounding_box()
-    assert box is not None
+    box = bounds(phone.page.get_by_role("dialog"))
     assert box["x"] >= 0
     assert box["x"] + box["width"] <= WIDTH
     assert phone.page.evaluate("document.documentElement.scrollWidth") == WIDTH
@@ -184,8 +181,7 @@ def test_everything_is_inside_the_toolbar(phone: ViewerTab, width: int) -> None:
     assert overflow(bar) == []
     playwright.expect(bar.get_by_role("combobox", name="Follow")).to_be_in_viewport(ratio=1)
     rates = phone.page.locator(".wv-top-right").bounding_box()
-    box = bar.bounding_box()
-    assert box is not None
+    box = bounds(bar)
     assert rates is not None
     assert box["x"] + box["width"] <= width
     assert rates["y"] >= box["y"] + box["height"]
@@ -235,8 +231,7 @@ def test_what_just_happened_can_be_saved(
 
 def test_fingers_drive_ahead_and_sideways(phone: ViewerTab) -> None:
     open_card(phone, lateral=LIMITS.lateral)
-    box = card(phone).bounding_box()
-    assert box is not None
+    box = bounds(card(phone))
     assert box["x"] >= 0
     assert box["x"] + box["width"] <= WIDTH
     session = phone.page.context.new_cdp_session(phone.page)
@@ -244,8 +239,7 @@ def test_fingers_drive_ahead_and_sideways(phone: ViewerTab) -> None:
     def touch(kind: str, *targets: tuple[str, float]) -> None:
         points = []
         for name, up in targets:
-            place = phone.page.locator(name).bounding_box()
-            assert place is not None
+            place = bounds(phone.page.locator(name))
             x, y = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
             points.append({"x": x, "y": y - up, "id": len(points)})
         session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 import pytest
+from pages import bounds
 from playwright.sync_api import expect
 
 from tests.page.opened_panels import open_panel
@@ -257,9 +258,7 @@ def test_tabs_that_are_too_many_leave_the_open_one_and_the_button_in_sight(
         (entries.last if name == "Limited" else entries.first).click()
         expect(tab_button).to_have_attribute("aria-selected", "true")
         expect(tab_button).to_be_in_viewport(ratio=1)
-        box, add = tab_button.bounding_box(), tab.button("Add a panel").bounding_box()
-        assert box is not None
-        assert add is not None
+        box, add = bounds(tab_button), bounds(tab.button("Add a panel"))
         assert box["x"] + box["width"] <= add["x"]
         assert add["x"] + add["width"] <= 320
 

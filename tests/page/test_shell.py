@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 from tests.page.everything import Everything, group, named
 from tests.page.page_bench import PageBench
@@ -33,8 +34,7 @@ def shows_seconds(tab: ViewerTab) -> bool:
 
 
 def width(tab: ViewerTab) -> float:
-    box = tab.page.get_by_role("complementary", name="Panels").bounding_box()
-    assert box is not None
+    box = bounds(tab.page.get_by_role("complementary", name="Panels"))
     return box["width"]
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 from tests.page.page_bench import PageBench
 from tests.page.tabs import ViewerTab
@@ -161,8 +162,7 @@ def test_what_is_held_counts_as_let_go_when_people_turn_to_something_else(
 
 def test_the_stick_drives_by_mouse_with_a_share_of_the_limits(driver: ViewerTab) -> None:
     stick = driver.page.get_by_role("application")
-    box = stick.bounding_box()
-    assert box is not None
+    box = bounds(stick)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     reach = (box["width"] - stick.locator("div").evaluate("(knob) => knob.offsetWidth")) / 2
     mouse = driver.page.mouse

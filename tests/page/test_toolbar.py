@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 from tests.page.page_bench import PageBench
 from tests.page.tabs import ViewerTab
@@ -194,8 +195,7 @@ def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
     wide.page.get_by_role("menuitem", name="Full screen").wait_for()
     wide.page.keyboard.press("Escape")
     assert overflow(bar) == []
-    box = bar.bounding_box()
-    assert box is not None
+    box = bounds(bar)
     assert box["height"] < 80, "more than two lines"
     for name in ("Fixed frame", "Follow"):
         box = bar.get_by_role("combobox", name=name)

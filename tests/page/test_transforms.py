@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from pages import bounds
 
 from tests.page.page_bench import PageBench, PageServer
 from tests.page.tabs import ViewerTab
@@ -220,8 +221,7 @@ def test_the_tree_is_a_picture_in_which_frames_are_found(picture: ViewerTab) -> 
     search.fill("odom")
     search.press("Enter")  # it is in the middle then
     picture.wait_for(lambda: "odom: in map" in dialog.inner_text())
-    box = canvas.bounding_box()
-    assert box is not None
+    box = bounds(canvas)
     canvas.click(position={"x": box["width"] / 2, "y": 2})
     picture.wait_for(lambda: "Click a frame for details." in dialog.inner_text())
     canvas.click(position={"x": box["width"] / 2, "y": box["height"] / 2})

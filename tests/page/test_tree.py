@@ -8,6 +8,7 @@ from typing import Any
 import playwright.sync_api as playwright
 import pytest
 import yaml
+from pages import bounds
 
 from tests.page.everything import Everything, group, named
 from tests.page.page_bench import SCAN, PageBench
@@ -60,9 +61,7 @@ def test_an_empty_list_explains_itself_above_the_button_that_adds(
 ) -> None:
     hint = tree.tab.page.get_by_text("No displays yet.")
     tree.tab.wait_for(hint.is_visible)
-    above, below = hint.bounding_box(), tree.tab.button("Add display").bounding_box()
-    assert above is not None
-    assert below is not None
+    above, below = bounds(hint), bounds(tree.tab.button("Add display"))
     assert 0 < below["y"] - above["y"] < 60
     viewer.show(*named("a"))
     tree.tab.wait_for(hint.is_hidden)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 from tests.page.everything import group, named
 from tests.page.page_bench import PageBench
@@ -27,8 +28,7 @@ def tree(viewer: PageBench, viewer_tab: ViewerTab) -> Tree:
 def at(tree: Tree, name: str, share: float) -> tuple[float, float]:
     """A place on a row; `share` of its height."""
     tree.tab.wait_for(lambda: tree.row(name).bounding_box())
-    box = tree.row(name).bounding_box()
-    assert box is not None
+    box = bounds(tree.row(name))
     return box["x"] + 90, box["y"] + share * box["height"]
 
 
@@ -107,8 +107,7 @@ def test_the_list_scrolls_at_its_edges(viewer: PageBench, tree: Tree) -> None:
     viewer.show(*named(*(f"row{i}" for i in range(40))))
     tree.tab.wait_for(lambda: "row5" in tree.names())
     drag(tree, "row1", "row5", 0.5)
-    box = tree.tab.page.locator(".wv-tree").bounding_box()
-    assert box is not None
+    box = bounds(tree.tab.page.locator(".wv-tree"))
     tree.tab.page.mouse.move(100, box["y"] + box["height"] - 6)
     last = tree.tab.page.get_by_role("button", name="Add display", exact=False)
     tree.tab.wait_for(lambda: "row39" in tree.names())

@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+import playwright.sync_api as playwright
 import pytest
+from pages import bounds
 
 from tests.page.opened_panels import open_panel
 from tests.page.page_bench import PageBench, PageServer
@@ -42,7 +44,7 @@ def publish(viewer: PageBench, type_: str, **values: Any) -> None:
     viewer.turn()
 
 
-def text_pane(tab: ViewerTab) -> Any:
+def text_pane(tab: ViewerTab) -> playwright.Locator:
     return tab.page.get_by_label("Text /joints", exact=True)
 
 
@@ -131,9 +133,9 @@ def hue(tab: ViewerTab, x: float) -> list[int]:
     return tab.page.locator(".wv-chart-canvas").evaluate(script, x)
 
 
-def chart_box(tab: ViewerTab) -> Any:
+def chart_box(tab: ViewerTab) -> playwright.FloatRect:
     """The place of the chart in the window, in pixels."""
-    return tab.page.locator(".wv-chart-canvas").bounding_box()
+    return bounds(tab.page.locator(".wv-chart-canvas"))
 
 
 def drag(tab: ViewerTab, start: tuple[float, float], end: tuple[float, float]) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import playwright.sync_api as playwright
+from pages import bounds
 
 from tests.page.tabs import ViewerTab
 from webviz.api.group import DisplayGroup
@@ -51,8 +52,7 @@ class Tree:
 
     def top(self, name: str) -> float:
         """The top of a row in pixels of the window."""
-        box = self.row(name).bounding_box()
-        assert box is not None
+        box = bounds(self.row(name))
         return box["y"]
 
     def click(self, name: str, **options: Any) -> None:
@@ -73,8 +73,7 @@ class Tree:
 
     def drag_by(self, element: playwright.Locator, dx: float, dy: float) -> None:
         """Drag the middle of something by mouse."""
-        box = element.bounding_box()
-        assert box is not None
+        box = bounds(element)
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
         mouse = self.tab.page.mouse
         mouse.move(x, y)
@@ -94,6 +93,5 @@ def group(
 
 def height_of(element: playwright.Locator) -> float:
     """Return the height of an element, in pixels."""
-    box = element.bounding_box()
-    assert box is not None
+    box = bounds(element)
     return box["height"]

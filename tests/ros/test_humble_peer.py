@@ -27,7 +27,7 @@ TYPES = {"/humble_text": STRING, "/humble_latched": STRING, "/humble_range": RAN
 
 
 @pytest.fixture(scope="module")
-def robot(webviz_domain: int, tmp_path_factory: Any) -> Iterator[Program]:
+def robot(webviz_domain: int, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
     # The wheels of ROS mark the environment of child processes, which are not theirs here.
     own = "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "PYTHONPATH"
     env = {name: value for name, value in os.environ.items() if name not in own}

@@ -2,8 +2,10 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import pytest
 from waiting import until
@@ -11,6 +13,8 @@ from waiting import until
 pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
 
 from nodes import SpunNode, response_of
+from rclpy.executors import Executor
+from rclpy.node import Node
 
 from webviz.data.messages import (
     UnknownTypeError,
@@ -30,6 +34,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"
 TF_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 NESTED_TF = ["builtin_interfaces/msg/Time", "geometry_msgs/msg/Quaternion"]
 ROOT = Path(__file__).parents[2]
+Peers = Callable[..., subprocess.Popen[bytes]]
 
 # A bag's schema: the main type, then what it contains.
 CUSTOM = f"""Part[2] parts
@@ -68,7 +73,7 @@ else:
 
 
 @pytest.fixture
-def ros(webviz_domain):
+def ros(webviz_domain: int) -> Iterator[tuple[Node, Executor]]:
     """A context and node of this process."""
     spun = SpunNode(webviz_domain, "types_test")
     yield spun.node, spun.executor
@@ -76,11 +81,11 @@ def ros(webviz_domain):
 
 
 @pytest.fixture
-def peer(webviz_domain):
+def peer(webviz_domain: int) -> Iterator[Peers]:
     """Start the other process; it is fed one message on stdin and prints what it receives."""
     started = []
 
-    def start(role, *args):
+    def start(role: str, *args: str) -> subprocess.Popen[bytes]:
         env = os.environ | {
             "ROS_DOMAIN_ID": str(webviz_domain),
             "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path[1:]]),
@@ -100,33 +105,33 @@ def peer(webviz_domain):
         process.communicate()
 
 
-def spin_until(executor, condition, seconds=60.0):
+def spin_until(executor: Executor, condition: Callable[[], object], seconds: float = 60.0) -> None:
     until(condition, turn=lambda: executor.spin_once(timeout_sec=0.05), seconds=seconds)
 
 
-def test_an_installed_type_is_the_real_class():
+def test_an_installed_type_is_the_real_class() -> None:
     from sensor_msgs.msg import LaserScan
 
     assert message_class("sensor_msgs/msg/LaserScan") is LaserScan
 
 
-def test_the_same_call_returns_the_same_class():
+def test_the_same_call_returns_the_same_class() -> None:
     name = "map_msgs/msg/OccupancyGridUpdate"
     assert message_class(name) is message_class(name)
 
 
 @pytest.mark.parametrize("name", ["", "LaserScan", "sensor_msgs/LaserScan", "a/srv/B", "a/msg/b/c"])
-def test_a_malformed_name_is_refused_in_one_sentence(name):
+def test_a_malformed_name_is_refused_in_one_sentence(name: str) -> None:
     with pytest.raises(MessageTypeError, match=r"is not a message type name\. Write .*\.$"):
         message_class(name)
 
 
-def test_an_unknown_type_names_the_package_to_install():
+def test_an_unknown_type_names_the_package_to_install() -> None:
     with pytest.raises(MessageTypeError, match=r"no_msgs/msg/No is known\. Install its package"):
         message_class("no_msgs/msg/No")
 
 
-def test_a_missing_package_under_another_rmw_names_the_command_to_install_it():
+def test_a_missing_package_under_another_rmw_names_the_command_to_install_it() -> None:
     script = (
         "import webviz.ros.types.classes as t\n"
         "t.get_rmw_implementation_identifier = lambda: 'rmw_cyclonedds_cpp'\n"
@@ -140,11 +145,11 @@ def test_a_missing_package_under_another_rmw_names_the_command_to_install_it():
     assert "needs its package with rmw_cyclonedds_cpp: install ros-jazzy-map-msgs" in run.stdout
 
 
-def test_the_hash_of_tf_message_is_the_published_one():
+def test_the_hash_of_tf_message_is_the_published_one() -> None:
     assert type_hash("tf2_msgs/msg/TFMessage") == TF_HASH
 
 
-def installed_hashes(kind):
+def installed_hashes(kind: str) -> dict[str, str]:
     """The hash of every type whose description is installed, by name."""
     result = {}
     for path in sorted((Path(sys.prefix) / "share").glob(f"*/{kind}/*.json")):
@@ -157,20 +162,20 @@ def installed_hashes(kind):
     return result
 
 
-def test_hashes_equal_those_of_every_installed_message():
+def test_hashes_equal_those_of_every_installed_message() -> None:
     hashes = {name: hash_ for name, hash_ in installed_hashes("msg").items() if type_exists(name)}
     assert {name: type_hash(name) for name in hashes} == hashes
     assert len(hashes) > 100
 
 
-def test_a_composed_class_has_no_instances():
+def test_a_composed_class_has_no_instances() -> None:
     if find_spec("map_msgs"):
         pytest.skip("map_msgs is installed here")
     with pytest.raises(TypeError, match="use serialised bytes"):
         message_class("map_msgs/msg/OccupancyGridUpdate")()
 
 
-def known_class(name, definition):
+def known_class(name: str, definition: str) -> Any:
     if definition:
         register(name, definition)
     return message_class(name)
@@ -184,13 +189,14 @@ MESSAGES = [
 
 @pytest.mark.parametrize(("name", "definition", "payload"), MESSAGES)
 def test_a_subscription_gets_the_bytes_that_another_process_published(
-    ros, peer, name, definition, payload
-):
+    ros: tuple[Node, Executor], peer: Peers, name: str, definition: str, payload: bytes
+) -> None:
     node, executor = ros
     received = []
     cls = known_class(name, definition)
     subscription = node.create_subscription(cls, "/forged", received.append, 10, raw=True)
     talker = peer("talker", name, "/forged", *filter(None, [definition]))
+    assert talker.stdin is not None
     talker.stdin.write(payload)
     talker.stdin.flush()
     spin_until(executor, lambda: len(received) >= 3)
@@ -202,18 +208,23 @@ def test_a_subscription_gets_the_bytes_that_another_process_published(
 
 
 @pytest.mark.parametrize(("name", "definition", "payload"), MESSAGES)
-def test_another_process_gets_the_bytes_published_here(ros, peer, name, definition, payload):
+def test_another_process_gets_the_bytes_published_here(
+    ros: tuple[Node, Executor], peer: Peers, name: str, definition: str, payload: bytes
+) -> None:
     node, executor = ros
     listener = peer("listener", name, "/forged", *filter(None, [definition]))
     publisher = node.create_publisher(known_class(name, definition), "/forged", 10)
     spin_until(executor, lambda: publisher.get_subscription_count() > 0)
     publisher.publish(payload)
+    assert listener.stdout is not None
     assert bytes.fromhex(listener.stdout.readline().decode()) == payload
     info = node.get_subscriptions_info_by_topic("/forged")[0]
     assert (info.topic_type, str(info.topic_type_hash)) == (name, type_hash(name))
 
 
-def test_a_real_package_and_a_composed_class_understand_each_other(ros):
+def test_a_real_package_and_a_composed_class_understand_each_other(
+    ros: tuple[Node, Executor],
+) -> None:
     from geometry_msgs.msg import PointStamped
     from rclpy.serialization import serialize_message
 
@@ -231,7 +242,7 @@ def test_a_real_package_and_a_composed_class_understand_each_other(ros):
     assert received == [point]
 
 
-def test_the_node_describes_a_composed_type_on_request(ros):
+def test_the_node_describes_a_composed_type_on_request(ros: tuple[Node, Executor]) -> None:
     from type_description_interfaces.srv import GetTypeDescription
 
     node, executor = ros
@@ -247,7 +258,7 @@ def test_the_node_describes_a_composed_type_on_request(ros):
     assert [other.type_name for other in referenced][:2] == NESTED_TF
 
 
-def test_a_subscription_without_raw_raises_instead_of_crashing(ros):
+def test_a_subscription_without_raw_raises_instead_of_crashing(ros: tuple[Node, Executor]) -> None:
     if find_spec("map_msgs"):
         pytest.skip("map_msgs is installed here")
     node, executor = ros
@@ -260,7 +271,7 @@ def test_a_subscription_without_raw_raises_instead_of_crashing(ros):
         spin_until(executor, lambda: False)
 
 
-def test_hashes_equal_those_of_every_installed_service():
+def test_hashes_equal_those_of_every_installed_service() -> None:
     for name, hash_ in installed_hashes("srv").items():
         learn(name)  # with the messages that the service holds
         assert type_hash(name) == hash_, name
@@ -282,7 +293,9 @@ rclpy.spin(node)
 """
 
 
-def test_a_service_without_its_package_answers_over_the_wire(ros, peer):
+def test_a_service_without_its_package_answers_over_the_wire(
+    ros: tuple[Node, Executor], peer: Peers
+) -> None:
     if find_spec("nav2_msgs"):
         pytest.skip("nav2_msgs is installed here")
     node, executor = ros
@@ -294,16 +307,18 @@ def test_a_service_without_its_package_answers_over_the_wire(ros, peer):
         assert response_of(client, request, executor).cdr[:5] == bytes([0, 1, 0, 0, command])
 
 
-def test_a_real_service_and_a_composed_client_understand_each_other(ros):
+def test_a_real_service_and_a_composed_client_understand_each_other(
+    ros: tuple[Node, Executor],
+) -> None:
     from std_srvs.srv import SetBool
 
     node, executor = ros
 
-    def answer(request, response):
+    def switch(request: Any, response: Any) -> Any:
         response.success, response.message = not request.data, "was done"
         return response
 
-    node.create_service(SetBool, "/switch", answer)
+    node.create_service(SetBool, "/switch", switch)
     composed = composed_service("std_srvs/srv/SetBool")
     client = node.create_client(composed, "/switch")
     spin_until(executor, client.service_is_ready)
@@ -314,7 +329,7 @@ def test_a_real_service_and_a_composed_client_understand_each_other(ros):
     assert answer.cdr[:21] == bytes([0, 1, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0]) + b"was done\0"
 
 
-def test_a_form_of_an_installed_type_needs_no_text():
+def test_a_form_of_an_installed_type_needs_no_text() -> None:
     typestore.find_with(learn)
     assert interfaces.action("test_msgs/action/Fibonacci").goal == "test_msgs/action/Fibonacci_Goal"
     assert encode("test_msgs/action/Fibonacci_Goal", {"order": 5})

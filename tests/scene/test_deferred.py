@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pytest
 
 from webviz.api.nodes import Image
 from webviz.scene import ViserScene
@@ -49,7 +50,9 @@ def test_dropped_work_and_work_below_it_is_never_sent() -> None:
     assert results == ["other"]
 
 
-def test_work_that_fails_is_logged_and_does_not_stop_the_rest(caplog: Any) -> None:
+def test_work_that_fails_is_logged_and_does_not_stop_the_rest(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
     late, results = DeferredMessages(), list[int]()
     late.put("/bad", lambda: 1 // 0, results.append)
     late.put("/good", lambda: 1, results.append)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any
 
 import numpy as np
 import pytest
 
-from tests.scene.conftest import floats
+from tests.scene.conftest import View, floats
 from webviz.api.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Node, Points, Pose
 
 CORNERS = np.array([(-0.3, -0.2, 0), (0.3, -0.2, 0), (0, 0.3, 0)], np.float32)
@@ -60,7 +59,7 @@ WATCH = """() => {
 
 
 @pytest.mark.parametrize("slower", [1, 8])
-def test_poses_and_data_are_seen_in_the_same_picture(view: Any, slower: int) -> None:
+def test_poses_and_data_are_seen_in_the_same_picture(view: View, slower: int) -> None:
     def show(x: float) -> None:
         view.scene.set_pose("robot", Pose((x, 3.0, 0.0)))
         for key, node in nodes_at(x).items():

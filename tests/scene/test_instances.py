@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.scene.conftest import floats
-from webviz.api.nodes import Instances, Pose
+from tests.scene.conftest import View, floats
+from webviz.api.nodes import Instances, Pose, Solid
 from webviz.scene.schemes import BACKGROUND
 from webviz.scene.solids import SOLIDS
 
@@ -24,7 +24,7 @@ def is_near(color: tuple[int, int, int], expected: tuple[int, int, int], by: int
 
 
 @pytest.mark.parametrize("shape", ["box", "cylinder", "sphere"])
-def test_a_solid_has_its_colour_where_it_stands(shape: Any, view: Any) -> None:
+def test_a_solid_has_its_colour_where_it_stands(shape: Solid, view: View) -> None:
     view.scene.set_pose("room", Pose((1.0, 0.5, 0.0)))
     view.scene.upsert("room", "solids", Instances(ORIGIN, UNIT, COLOR, shape))
     view.show()
@@ -34,7 +34,7 @@ def test_a_solid_has_its_colour_where_it_stands(shape: Any, view: Any) -> None:
 
 @pytest.mark.parametrize("opacity", [1.0, np.ones(1, np.float32)], ids=["one for all", "each"])
 def test_a_ball_of_data_has_its_colour_in_the_middle_and_0_8_of_it_at_the_rim(
-    opacity: Any, view: Any
+    opacity: Any, view: View
 ) -> None:
     ball = Instances(ORIGIN, 3 * UNIT, COLOR, "sphere", opacity=opacity, is_data=True)
     view.scene.upsert("room", "solids", ball)
@@ -56,7 +56,7 @@ SIDES = {
 
 
 @pytest.mark.parametrize("side", SIDES, ids=str)
-def test_each_side_of_a_box_of_data_has_a_brightness_and_dark_edges(side: Any, view: Any) -> None:
+def test_each_side_of_a_box_of_data_has_a_brightness_and_dark_edges(side: Any, view: View) -> None:
     view.scene.upsert("room", "solids", Instances(ORIGIN, 3 * UNIT, COLOR, "box", is_data=True))
     outward = np.array(side)
     view.look(tuple((outward * 8.0 + (0.5, 0.3, 0.4)).tolist()), (0.0, 0.0, 0.0))
@@ -67,7 +67,9 @@ def test_each_side_of_a_box_of_data_has_a_brightness_and_dark_edges(side: Any, v
 
 
 @pytest.mark.parametrize("eye", [(3.0, 2.0, 8.0), (6.0, 0.0, -3.0)], ids=["above", "below"])
-def test_a_square_of_data_has_its_colour_from_both_sides_at_any_slant(eye: Any, view: Any) -> None:
+def test_a_square_of_data_has_its_colour_from_both_sides_at_any_slant(
+    eye: tuple[float, float, float], view: View
+) -> None:
     view.scene.upsert("room", "tiles", Instances(ORIGIN, 3 * UNIT, COLOR, "square", is_data=True))
     view.look(eye, (0.0, 0.0, 0.0))
     for color in view.colors_at((0.0, 0.0, 0.0), (1.4, 1.4, 0.0), (-1.4, 0.5, 0.0)):
@@ -75,7 +77,7 @@ def test_a_square_of_data_has_its_colour_from_both_sides_at_any_slant(eye: Any, 
     assert view.colors_at((1.7, 0.0, 0.0), (0.0, -1.7, 0.0)) == [BACKGROUND] * 2
 
 
-def test_each_solid_has_its_place_extent_turn_and_colour(view: Any) -> None:
+def test_each_solid_has_its_place_extent_turn_and_colour(view: View) -> None:
     quarter = floats((1, 0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
     centers, sizes = floats((-1, 0, 0), (1.5, 0, 0)), floats((0.4, 2, 0.1), (0.4, 2, 0.1))
     colors = np.array((RED, GREEN), np.uint8)
@@ -87,7 +89,7 @@ def test_each_solid_has_its_place_extent_turn_and_colour(view: Any) -> None:
     assert view.color_at((1.5, 0.9, 0.0)) == BACKGROUND
 
 
-def test_solids_change_in_number_place_colour_and_shape(view: Any) -> None:
+def test_solids_change_in_number_place_colour_and_shape(view: View) -> None:
     for count in (1, 5, 0, 3):
         places = floats(*[(x, 0, 0) for x in range(count)]).reshape(-1, 3)
         colors = np.array([RED, GREEN, BLUE, GREEN, RED][:count], np.uint8).reshape(-1, 3)
@@ -106,7 +108,7 @@ def test_solids_change_in_number_place_colour_and_shape(view: Any) -> None:
     assert view.color_at(corner) == BACKGROUND
 
 
-def test_transparent_instances_show_the_background(view: Any) -> None:
+def test_transparent_instances_show_the_background(view: View) -> None:
     places, sizes = floats((-1, 0, 0), (1, 0, 0)), floats((1, 1, 1), (1, 1, 1))
     white = (255, 255, 255)
     view.scene.upsert("room", "solids", Instances(places, sizes, white, opacity=0.5))
@@ -123,7 +125,7 @@ def test_transparent_instances_show_the_background(view: Any) -> None:
     assert view.color_at((1.0, 0.0, 0.0))[0] > 230
 
 
-def test_solids_that_fade_leave_nothing_in_the_graphics_card(view: Any) -> None:
+def test_solids_that_fade_leave_nothing_in_the_graphics_card(view: View) -> None:
     memory = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.memory.geometries"
     counts = []
     for opacity in (0.9, 0.8, 0.7, 0.6, 0.5):
@@ -135,7 +137,7 @@ def test_solids_that_fade_leave_nothing_in_the_graphics_card(view: Any) -> None:
     assert counts[-1] == counts[0]
 
 
-def test_non_finite_instances_are_dropped(view: Any) -> None:
+def test_non_finite_instances_are_dropped(view: View) -> None:
     places = floats((0, 0, np.nan), (1, 0, 0))
     colors = np.array((RED, GREEN), np.uint8)
     node = Instances(places, floats((1, 1, 1), (1, 1, 1)), colors, opacity=floats(1.0, 1.0))
@@ -159,7 +161,7 @@ def test_solids_are_of_size_1_and_not_inside_out(shape: str, volume: float) -> N
     assert outwards.min() >= -1e-9
 
 
-def test_a_cone_points_along_z(view: Any) -> None:
+def test_a_cone_points_along_z(view: View) -> None:
     along_y = floats((np.sqrt(0.5), -np.sqrt(0.5), 0, 0))
     node = Instances(ORIGIN, floats((1, 1, 2)), RED, "cone", along_y)
     view.scene.upsert("room", "solids", node)

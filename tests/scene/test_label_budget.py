@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 from viser import LabelHandle
@@ -30,7 +28,7 @@ def settle(scene: ViserScene) -> None:
         scene.flush()
 
 
-def test_many_texts_are_added_over_several_flushes(scene: Any) -> None:
+def test_many_texts_are_added_over_several_flushes(scene: ViserScene) -> None:
     woken: list[bool] = []
     scene.link.deferred.wake = lambda: woken.append(True)
     texts = [f"{number:04}" for number in range(2 * AT_ONCE + 1)]
@@ -45,7 +43,7 @@ def test_many_texts_are_added_over_several_flushes(scene: Any) -> None:
 
 
 def test_texts_of_several_nodes_are_limited_and_room_is_given_back(
-    scene: Any, monkeypatch: pytest.MonkeyPatch
+    scene: ViserScene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.scene.label_budget.MAX_LABELS", 3)
     monkeypatch.setattr(scene.link, "label_budget", LabelBudget())
@@ -67,7 +65,7 @@ def test_texts_of_several_nodes_are_limited_and_room_is_given_back(
 
 
 def test_the_characters_of_all_texts_are_limited(
-    scene: Any, monkeypatch: pytest.MonkeyPatch
+    scene: ViserScene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.scene.label_budget.MAX_CHARACTERS", 10)
     monkeypatch.setattr(scene.link, "label_budget", LabelBudget())

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.scene.conftest import View
 from webviz.api.nodes import Axes, Instances, Mesh, Node
 from webviz.scene.constants import DARKEST
 from webviz.scene.schemes import BACKGROUND
@@ -32,7 +33,7 @@ def box(size: float, corners: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize("eye", [FROM_ABOVE, FROM_A_SIDE], ids=["above", "a side"])
-def test_a_ball_is_lit_from_the_camera_and_not_black_at_its_rim(view: Any, eye: Any) -> None:
+def test_a_ball_is_lit_from_the_camera_and_not_black_at_its_rim(view: View, eye: Any) -> None:
     ball = Instances(np.zeros((1, 3), np.float32), np.full((1, 3), 4, np.float32), COLOR, "sphere")
     view.scene.upsert("room", "ball", ball)
     view.look(eye, (0.0, 0.0, 0.0))
@@ -47,14 +48,14 @@ def test_a_ball_is_lit_from_the_camera_and_not_black_at_its_rim(view: Any, eye: 
     assert rim[:-1].min() >= DARKEST * COLOR[0] - 2
 
 
-def test_a_side_that_is_seen_at_an_angle_is_darker_by_its_cosine(view: Any) -> None:
+def test_a_side_that_is_seen_at_an_angle_is_darker_by_its_cosine(view: View) -> None:
     view.scene.upsert("room", "box", Mesh(*box(2.0), COLOR))
     view.look((10.0, 10.0, 0.0), (0.0, 0.0, 0.0))
     for color in view.colors_at((1.0, 0.5, 0.0), (0.5, 1.0, 0.0)):
         assert color == pytest.approx(shaded(np.sqrt(0.5)), abs=3)
 
 
-def test_axes_are_shaded_and_as_long_as_they_should_be(view: Any) -> None:
+def test_axes_are_shaded_and_as_long_as_they_should_be(view: View) -> None:
     at = np.zeros((1, 3), np.float32)
     view.scene.upsert("room", "axes", Axes(at, np.array([(1, 0, 0, 0)], np.float32), 2.0, 0.5))
     view.show()
@@ -67,7 +68,7 @@ def test_axes_are_shaded_and_as_long_as_they_should_be(view: Any) -> None:
 
 
 @pytest.mark.parametrize("kind", ["mesh", "batch"])
-def test_transparent_shapes_show_no_inside(view: Any, kind: str) -> None:
+def test_transparent_shapes_show_no_inside(view: View, kind: str) -> None:
     node: Node = Mesh(*box(2.0), COLOR, opacity=0.5)
     if kind == "batch":
         at, size = np.zeros((1, 3), np.float32), np.full((1, 3), 2, np.float32)
@@ -80,7 +81,9 @@ def test_transparent_shapes_show_no_inside(view: Any, kind: str) -> None:
 
 
 @pytest.mark.parametrize("sizes", [(1.0, 2.0), (2.0, 1.0)], ids=["inner first", "outer first"])
-def test_a_transparent_shape_does_not_hide_its_farther_parts(view: Any, sizes: Any) -> None:
+def test_a_transparent_shape_does_not_hide_its_farther_parts(
+    view: View, sizes: tuple[float, float]
+) -> None:
     (a, i), (b, j) = box(sizes[0]), box(sizes[1], corners=24)
     mesh = Mesh(np.concatenate((a, b)), np.concatenate((i, j)), COLOR, opacity=0.5)
     view.scene.upsert("room", "boxes", mesh)

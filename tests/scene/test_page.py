@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from pages import let_keys_in
 
-from tests.scene.conftest import floats
+from tests.scene.conftest import View, floats
 from webviz.api.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points
 
 TRIANGLE = np.eye(3, dtype=np.float32)
@@ -25,7 +24,7 @@ EVERYTHING: dict[str, Callable[[int], Node]] = {
 }
 
 
-def resources(view: Any) -> dict[str, int]:
+def resources(view: View) -> dict[str, int]:
     return view.evaluate(
         """() => {
           const info = window.__viserTestpoints.rendererInfo;
@@ -34,7 +33,7 @@ def resources(view: Any) -> dict[str, int]:
     )
 
 
-def test_forty_updates_take_no_more_of_the_graphics_card_than_ten(view: Any) -> None:
+def test_forty_updates_take_no_more_of_the_graphics_card_than_ten(view: View) -> None:
     counts = []
     for n in range(40):
         for key, make in EVERYTHING.items():
@@ -48,7 +47,7 @@ def test_forty_updates_take_no_more_of_the_graphics_card_than_ten(view: Any) -> 
     assert counts[1] == counts[0]
 
 
-def test_removed_nodes_leave_nothing_in_the_page(view: Any) -> None:
+def test_removed_nodes_leave_nothing_in_the_page(view: View) -> None:
     view.show()
     nodes, before = view.nodes(), resources(view)
     for n in range(3):
@@ -62,7 +61,7 @@ def test_removed_nodes_leave_nothing_in_the_page(view: Any) -> None:
     assert resources(view)["geometries"] <= before["geometries"] + 2  # viser's shared shapes
 
 
-def test_the_camera_does_not_walk_by_keys_with_ctrl(view: Any) -> None:
+def test_the_camera_does_not_walk_by_keys_with_ctrl(view: View) -> None:
     let_keys_in(view)
     before = view.evaluate("() => window.__viserMutable.camera.position.toArray()")
     view.tab.keyboard.press("Control+e", delay=300)

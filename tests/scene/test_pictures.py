@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from tests.scene.conftest import floats
+from tests.scene.conftest import View, floats
 from webviz.api.nodes import Image, Lines, Pose
 from webviz.api.views import Orbit, TopDownOrtho
 from webviz.scene.schemes import BACKGROUND
@@ -25,7 +23,7 @@ def checker() -> np.ndarray:
 
 
 def test_cell_0_0_of_a_picture_is_at_its_origin_with_columns_along_x_and_rows_along_y(
-    view: Any,
+    view: View,
 ) -> None:
     view.scene.upsert("map", "grid", Image(checker(), 4.0, 4.0))
     view.scene.set_pose("map", Pose((-1.0, -2.0, 0.0)))
@@ -37,7 +35,7 @@ def test_cell_0_0_of_a_picture_is_at_its_origin_with_columns_along_x_and_rows_al
     assert view.color_at((1.0, 0.0, 0.0)) == COLOR
 
 
-def test_the_cells_of_a_picture_are_sharp(view: Any) -> None:
+def test_the_cells_of_a_picture_are_sharp(view: View) -> None:
     view.scene.upsert("map", "grid", Image(checker(), 4.0, 4.0))
     view.show()
     view.wait_for(lambda: view.draw(1) or view.color_at((0.5, 0.5, 0.0)) == RED)
@@ -47,7 +45,7 @@ def test_the_cells_of_a_picture_are_sharp(view: Any) -> None:
     assert colors == {RED, COLOR}
 
 
-def test_a_picture_of_several_tiles_is_seamless(view: Any) -> None:
+def test_a_picture_of_several_tiles_is_seamless(view: View) -> None:
     rgba = np.full((8, 9000, 4), (*COLOR, 255), np.uint8)
     view.scene.set_pose("map", Pose((-3.0, -1.0, 0.0)))
     view.scene.upsert("map", "grid", Image(rgba, 6.0, 2.0))
@@ -58,7 +56,7 @@ def test_a_picture_of_several_tiles_is_seamless(view: Any) -> None:
     assert (view.pixels()[row, left:right] == COLOR).all()
 
 
-def test_a_picture_that_changes_never_blanks(view: Any) -> None:
+def test_a_picture_that_changes_never_blanks(view: View) -> None:
     cells = np.full((64, 64, 4), (0, 0, 255, 255), np.uint8)
     view.scene.set_pose("map", Pose((-1.0, -1.0, 0.0)))
     view.scene.upsert("map", "grid", Image(cells, 2.0, 2.0))
@@ -92,7 +90,7 @@ def test_a_picture_that_changes_never_blanks(view: Any) -> None:
     assert {(red, blue) for red, _, blue in colors} == {(0, 255)}
 
 
-def greenness(view: Any) -> list[int]:
+def greenness(view: View) -> list[int]:
     """Return the green along a line that crosses a red picture and passes by the camera."""
     view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 0.5, 0.0)) == RED)
     pixels = view.pixels()
@@ -100,7 +98,7 @@ def greenness(view: Any) -> list[int]:
     return [int(pixels[y - 1 : y + 2, x - 1 : x + 2, 1].max()) for y, x in places]
 
 
-def test_lines_in_the_plane_of_a_picture_are_drawn_over_it_from_everywhere(view: Any) -> None:
+def test_lines_in_the_plane_of_a_picture_are_drawn_over_it_from_everywhere(view: View) -> None:
     view.scene.upsert("grid", "line", Lines(floats(((-30, 0, 0), (30, 0, 0))), GREEN))
     view.scene.set_pose("map", Pose((-3.0, -3.0, 0.0)))
     view.scene.upsert("map", "grid", Image(np.full((8, 8, 4), (*RED, 255), np.uint8), 6.0, 6.0))
@@ -113,7 +111,7 @@ def test_lines_in_the_plane_of_a_picture_are_drawn_over_it_from_everywhere(view:
     view.scene.cameras.show(Orbit())
 
 
-def test_a_picture_a_centimetre_above_a_line_hides_it(view: Any) -> None:
+def test_a_picture_a_centimetre_above_a_line_hides_it(view: View) -> None:
     view.scene.upsert("grid", "line", Lines(floats(((-30, 0, -0.01), (30, 0, -0.01))), GREEN))
     view.scene.set_pose("map", Pose((-3.0, -3.0, 0.0)))
     view.scene.upsert("map", "grid", Image(np.full((8, 8, 4), (*RED, 255), np.uint8), 6.0, 6.0))
@@ -122,7 +120,7 @@ def test_a_picture_a_centimetre_above_a_line_hides_it(view: Any) -> None:
 
 
 def test_the_higher_layer_of_two_images_in_one_plane_is_on_top_from_everywhere(
-    view: Any,
+    view: View,
 ) -> None:
     for name, color, corner, layer in (("costmap", BLUE, -1.0, 3), ("map", RED, -2.0, -100_000)):
         view.scene.set_pose(name, Pose((corner, corner, 0.0)))

@@ -7,7 +7,7 @@ import json
 import math
 import struct
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import PIL.Image
@@ -119,7 +119,7 @@ COLORED: dict[str, tuple[Node, int]] = {
 
 @pytest.mark.parametrize(("node", "tolerance"), COLORED.values(), ids=COLORED)
 def test_a_node_has_its_colour_where_its_group_stands(
-    node: Node, tolerance: int, view: Any
+    node: Node, tolerance: int, view: View
 ) -> None:
     place = (1.0, 0.5, 0.0)
     corner = (0.5, 0.0, 0.0)
@@ -131,7 +131,7 @@ def test_a_node_has_its_colour_where_its_group_stands(
     assert view.color_at((-2.0, -1.0, 0.0)) == BACKGROUND
 
 
-def test_axes_are_red_green_blue_along_x_y_z(view: Any) -> None:
+def test_axes_are_red_green_blue_along_x_y_z(view: View) -> None:
     turned = floats((np.sqrt(0.5), 0, 0, np.sqrt(0.5)))  # x along y
     view.scene.upsert("base_link", "axes", Axes(floats((0, 0, 0)), turned, 1.0, 0.2))
     view.show()
@@ -143,7 +143,7 @@ def test_axes_are_red_green_blue_along_x_y_z(view: Any) -> None:
 XYZ = floats((0, 0, 0), (1, 0, 0), (2, 0, 0))
 
 
-def test_labels_follow_their_texts_in_number_and_place(view: Any) -> None:
+def test_labels_follow_their_texts_in_number_and_place(view: View) -> None:
     view.scene.upsert(
         "tf", "names", Labels(floats((0, 0, 0), (1, 0, 0), (2, 0, 0)), tuple("abc"), 0.5)
     )
@@ -169,14 +169,14 @@ def test_labels_follow_their_texts_in_number_and_place(view: Any) -> None:
     ],
     ids=lambda node: type(node).__name__,
 )
-def test_non_finite_items_are_dropped(node: Node, view: Any) -> None:
+def test_non_finite_items_are_dropped(node: Node, view: View) -> None:
     view.scene.upsert("base_link", "it", node)
     view.show()
     assert np.abs(np.subtract(view.color_at((0.0, 0.0, 0.0)), COLOR)).max() <= 12
 
 
 @pytest.mark.parametrize("unit", ["px", "m"])
-def test_transparent_lines_blend_with_the_background(unit: Any, view: Any) -> None:
+def test_transparent_lines_blend_with_the_background(unit: Literal["px", "m"], view: View) -> None:
     """Once, also in the bend of a line with a width in metres."""
     cells = np.full((2, 2, 4), (230, 240, 250, 128), np.uint8)
     width = 0.8 if unit == "m" else 40.0
@@ -198,7 +198,7 @@ def test_transparent_lines_blend_with_the_background(unit: Any, view: Any) -> No
     assert view.color_at(covered) == COLOR
 
 
-def test_translucent_points_blend_with_the_background(view: Any) -> None:
+def test_translucent_points_blend_with_the_background(view: View) -> None:
     """Both the first points of a node and those after a change of its opacity."""
     sheet = Mesh(*square(1.0), (230, 240, 250), is_flat=True)
     view.scene.upsert("base_link", "sheet", sheet)
@@ -216,7 +216,7 @@ def test_translucent_points_blend_with_the_background(view: Any) -> None:
 @pytest.mark.parametrize("opacity", [1.0, 0.5], ids=["opaque", "transparent"])
 @pytest.mark.parametrize("line_opacity", [1.0, 0.5], ids=["on a line", "on a faint line"])
 def test_a_flat_mesh_has_its_colour_and_covers_lines_in_its_plane(
-    opacity: float, line_opacity: float, view: Any
+    opacity: float, line_opacity: float, view: View
 ) -> None:
     sheet = Mesh(*square(2.0), COLOR, opacity, is_flat=True)
     line = Lines(floats(((-2, 0, 0), (2, 0, 0))), RED, 8.0, opacity=line_opacity)
@@ -235,7 +235,7 @@ def test_a_flat_mesh_has_its_colour_and_covers_lines_in_its_plane(
         assert np.abs(view.colors_at(beside, *along) - blended).max() <= 2, tilt
 
 
-def test_the_ends_of_a_line_in_metres_are_square_and_its_joints_mitred(view: Any) -> None:
+def test_the_ends_of_a_line_in_metres_are_square_and_its_joints_mitred(view: View) -> None:
     straight, corner = floats((-2, 0, 0), (0, 0, 0)), floats((0, 0, 0), (0, 2, 0))
     view.scene.upsert("base_link", "it", Lines(np.stack((straight, corner)), COLOR, 0.8, "m"))
     view.show()
@@ -266,13 +266,13 @@ EMPTY = np.zeros((0, 2, 3), np.float32)
     ],
     ids=lambda node: type(node).__name__,
 )
-def test_nothing_can_be_drawn_too(node: Node, view: Any) -> None:
+def test_nothing_can_be_drawn_too(node: Node, view: View) -> None:
     view.scene.upsert("base_link", "it", node)
     view.show()
     assert (view.pixels() == BACKGROUND).all()
 
 
-def test_a_mesh_is_seen_from_below_and_never_black(view: Any) -> None:
+def test_a_mesh_is_seen_from_below_and_never_black(view: View) -> None:
     view.scene.upsert("base_link", "it", Mesh(*square(1.0), COLOR))
     view.look((0.0, -0.01, -10.0), (0.0, 0.0, 0.0))
     red, green, blue = view.color_at((0.0, 0.0, 0.0))
@@ -280,7 +280,7 @@ def test_a_mesh_is_seen_from_below_and_never_black(view: Any) -> None:
     assert blue < green < red
 
 
-def test_colours_of_corners_and_ends_are_mixed_as_in_rviz(view: Any) -> None:
+def test_colours_of_corners_and_ends_are_mixed_as_in_rviz(view: View) -> None:
     """Colours are mixed in sRGB; corners may change in number, and a mesh to one colour."""
     vertices, faces = square(1.0)
     is_left = vertices[:, 0] < 0
@@ -308,13 +308,13 @@ def near(color: Any) -> Any:
     return pytest.approx(color, abs=12)
 
 
-def test_a_transparent_mesh_blends_with_the_background(view: Any) -> None:
+def test_a_transparent_mesh_blends_with_the_background(view: View) -> None:
     view.scene.upsert("base_link", "it", Mesh(*square(1.0), (255, 255, 255), opacity=0.5))
     view.show()
     assert 100 < view.color_at((0.0, 0.0, 0.0))[0] < 220
 
 
-def test_a_hidden_group_is_not_drawn(view: Any) -> None:
+def test_a_hidden_group_is_not_drawn(view: View) -> None:
     view.scene.upsert("base_link", "it", Points(floats((0, 0, 0)), COLOR, 0.5))
     view.show()
     view.scene.set_visible("base_link", False)
@@ -322,7 +322,7 @@ def test_a_hidden_group_is_not_drawn(view: Any) -> None:
     assert (view.pixels() == BACKGROUND).all()
 
 
-def test_far_from_home_the_scene_looks_the_same(view: Any) -> None:
+def test_far_from_home_the_scene_looks_the_same(view: View) -> None:
     x, y = 500_001.0, 4_000_000.5
     view.look((x, y - 0.01, 10.0), (x, y, 0.0))
     view.scene.set_pose("utm", Pose((x, y, 0.0)))
@@ -332,14 +332,14 @@ def test_far_from_home_the_scene_looks_the_same(view: Any) -> None:
     assert view.color_at((x, y, 0.0)) == BACKGROUND
 
 
-def test_the_background_can_be_changed(view: Any) -> None:
+def test_the_background_can_be_changed(view: View) -> None:
     set_background(view.scene.link.server, (10, 20, 30))
     view.wait_for(lambda: view.draw(1) or (view.pixels() == (10, 20, 30)).all())
     set_background(view.scene.link.server, BACKGROUND)
     view.wait_for(lambda: view.draw(1) or (view.pixels() == BACKGROUND).all())
 
 
-def test_parts_of_two_clouds_are_never_seen_together(view: Any) -> None:
+def test_parts_of_two_clouds_are_never_seen_together(view: View) -> None:
     xyz = np.zeros((PART + 1, 3), np.float32)
     xyz[-1] = (2, 0, 0)
     view.scene.upsert("lidar", "it", Points(xyz, RED, 0.5))
@@ -359,7 +359,7 @@ def test_parts_of_two_clouds_are_never_seen_together(view: Any) -> None:
     assert observed == [[RED, RED], [GREEN, GREEN]]
 
 
-def test_equal_textures_of_models_are_in_the_graphics_card_once(view: Any) -> None:
+def test_equal_textures_of_models_are_in_the_graphics_card_once(view: View) -> None:
     file = io.BytesIO()
     PIL.Image.new("RGB", (4, 4), COLOR).save(file, "PNG")
     corners, faces = square(1.0)
@@ -384,7 +384,7 @@ def test_equal_textures_of_models_are_in_the_graphics_card_once(view: Any) -> No
     textures(1.0)
 
 
-def test_an_invalid_gltf_is_an_error(view: Any) -> None:
+def test_an_invalid_gltf_is_an_error(view: View) -> None:
     view.scene.upsert("base_link", "it", Glb(b"solid ascii stl"))
     with pytest.raises(ValueError, match=r"not a binary glTF 2\.0"):
         view.scene.flush()

@@ -14,7 +14,7 @@ import numpy as np
 from viser import _messages as wire
 from viser_internals import live_connections, message_buffer
 
-from tests.scene.conftest import Peer
+from tests.scene.conftest import Peer, View
 from tests.support.slow_link import SlowLink
 from webviz.api.nodes import Image, Points, Pose
 from webviz.scene import ViserScene
@@ -440,9 +440,10 @@ def test_on_a_link_of_5_mbit_the_pose_stays_fresh_and_the_cloud_is_thinned(
     assert any("clouds show every" in text for text in texts)
 
 
-def test_the_page_puts_pieces_together(view: Any) -> None:
+def test_the_page_puts_pieces_together(view: View) -> None:
     channel = view.scene.link.server.channel
     congestion = channel.congestion(max(channel.browsers()))
+    assert congestion is not None
     congestion.rate = SLOW
     cells = np.random.default_rng(0).integers(0, 255, (400, 400, 4), np.uint8)
     cells[200:, :, :] = (200, 100, 50, 255)

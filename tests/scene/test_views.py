@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterator
 from datetime import datetime
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -416,7 +417,7 @@ def test_f_focuses_the_point_under_the_mouse(window: Window, view: View) -> None
 # Pictures
 
 
-def test_a_screenshot_of_the_view_is_downloaded(view: conftest.View, tmp_path: Any) -> None:
+def test_a_screenshot_of_the_view_is_downloaded(view: conftest.View, tmp_path: Path) -> None:
     """The page draws all the time."""
     view.scene.upsert("box", "b", box(0.0, 0.0, 0.5, 1.0, 1.0, 1.0))
     view.show()

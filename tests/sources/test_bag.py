@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Callable, Collection, Iterator
+from pathlib import Path
 
 import pytest
 from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
+from tests.sources.conftest import PlayedBag
 from webviz.data.messages import decode, register
 from webviz.sources import Inbox
 from webviz.sources.bag.history import BagHistory
+from webviz.sources.history import HistoryChannel, Recorded
 from webviz.sources.history.playhead import MAX_BATCH
 
 KINDS = [
@@ -26,7 +30,12 @@ KINDS = [
 
 
 @pytest.mark.parametrize(("storage", "compression"), KINDS, ids=lambda kind: kind.name.lower())
-def test_messages_arrive_up_to_the_time_played(tmp_path, open_bag, storage, compression):
+def test_messages_arrive_up_to_the_time_played(
+    tmp_path: Path,
+    open_bag: Callable[..., PlayedBag],
+    storage: StoragePlugin,
+    compression: CompressionMode,
+) -> None:
     bag = open_bag(strings(0, 1, 2.5, 4).write(tmp_path / "bag", storage, compression))
     bag.want("/words")
     assert bag.texts() == []
@@ -42,20 +51,30 @@ def test_messages_arrive_up_to_the_time_played(tmp_path, open_bag, storage, comp
 @pytest.mark.parametrize(
     ("storage", "ending"), [(StoragePlugin.MCAP, ".mcap"), (StoragePlugin.SQLITE3, ".db3")]
 )
-def test_a_file_of_a_bag_is_a_bag(tmp_path, open_bag, storage, ending, compression):
+def test_a_file_of_a_bag_is_a_bag(
+    tmp_path: Path,
+    open_bag: Callable[..., PlayedBag],
+    storage: StoragePlugin,
+    ending: str,
+    compression: CompressionMode,
+) -> None:
     (file,) = files(strings(0, 1).write(tmp_path / "bag", storage, compression), ending)
     bag = open_bag(file)
     assert bag.words_until(1) == ["0", "1"]
     assert bag.source.warnings == []
 
 
-def test_compressed_messages_are_unpacked_without_metadata(tmp_path, open_bag):
+def test_compressed_messages_are_unpacked_without_metadata(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     folder = strings(0, 1).write(tmp_path / "bag", compression=CompressionMode.MESSAGE)
     (folder / "metadata.yaml").unlink()
     assert open_bag(folder).words_until(1) == ["0", "1"]
 
 
-def test_a_damaged_compressed_message_is_skipped(tmp_path, open_bag):
+def test_a_damaged_compressed_message_is_skipped(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     (file,) = files(
         strings(0, 1, 2).write(tmp_path / "bag", compression=CompressionMode.MESSAGE), ".mcap"
     )
@@ -72,7 +91,9 @@ def test_a_damaged_compressed_message_is_skipped(tmp_path, open_bag):
     ]
 
 
-def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, open_bag):
+def test_a_message_arrives_with_the_time_of_its_recording(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(0, 1.25).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(1.25)
@@ -82,7 +103,9 @@ def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, open_bag):
     ]
 
 
-def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, open_bag):
+def test_many_messages_come_in_parts_and_none_is_lost(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     seconds = [0.001 * i for i in range(3 * MAX_BATCH)]
     bag = open_bag(strings(*seconds).write(tmp_path / "bag"))
     bag.want("/words")
@@ -94,7 +117,9 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, open_bag):
     assert [float(text) for part in expected for text in part] == pytest.approx(seconds)
 
 
-def test_large_messages_come_in_parts_too(tmp_path, open_bag, monkeypatch):
+def test_large_messages_come_in_parts_too(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("webviz.sources.history.playhead.MAX_BATCH_BYTES", 15)  # each has 10
     bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
@@ -103,7 +128,9 @@ def test_large_messages_come_in_parts_too(tmp_path, open_bag, monkeypatch):
         assert bag.texts() == texts
 
 
-def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, open_bag):
+def test_playing_to_a_time_that_is_over_changes_nothing(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(1.5)
@@ -111,7 +138,7 @@ def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, open_bag):
     assert bag.source.reached_ns == START_NS + ns(1.5)
 
 
-def steps(bag):
+def steps(bag: PlayedBag) -> list[int]:
     """The number of messages of each step in which a bag is played to its end."""
     bag.want("/words")
     counts = []
@@ -121,24 +148,32 @@ def steps(bag):
     return counts
 
 
-def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, open_bag):
+def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     day_s = 86_400.0
     bag = open_bag(strings(0, day_s, day_s + 0.01, 3 * day_s, 6.4 * day_s).write(tmp_path / "bag"))
     assert steps(bag) == [1, 1, 1, 1, 1]
 
 
-def test_a_dense_bag_is_played_in_steps_of_a_tenth_of_a_second(tmp_path, open_bag):
+def test_a_dense_bag_is_played_in_steps_of_a_tenth_of_a_second(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(*[0.01 * number for number in range(80)]).write(tmp_path / "bag"))
     assert steps(bag) == [10] * 8
 
 
-def test_a_late_subscription_begins_with_the_newest_message(tmp_path, open_bag):
+def test_a_late_subscription_begins_with_the_newest_message(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.play(1)
     assert bag.words_until(2) == ["1", "2"]
 
 
-def test_a_second_subscription_loses_no_message_of_the_first(tmp_path, open_bag):
+def test_a_second_subscription_loses_no_message_of_the_first(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = strings(0, 1, 2, 3)
     recorded.add("/more", "std_msgs/msg/String")
     recorded.put(2, "/more", {"data": "more"})
@@ -151,7 +186,9 @@ def test_a_second_subscription_loses_no_message_of_the_first(tmp_path, open_bag)
     assert [len(arrived["/words"]), len(arrived["/more"])] == [4, 1]
 
 
-def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(tmp_path, open_bag):
+def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = strings(0, 1, 2, 3)
     recorded.add("/more", "std_msgs/msg/String")
     bag = open_bag(recorded.write(tmp_path / "bag"))
@@ -162,7 +199,9 @@ def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(tmp_pa
     assert bag.texts() == ["2", "3"]
 
 
-def test_an_unsubscribed_topic_is_silent(tmp_path, open_bag):
+def test_an_unsubscribed_topic_is_silent(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(0, 1).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(0)  # of which the message waits
@@ -171,7 +210,9 @@ def test_an_unsubscribed_topic_is_silent(tmp_path, open_bag):
     assert bag.texts() == []
 
 
-def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, open_bag):
+def test_latched_messages_are_repeated_for_late_subscriptions(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(0, 1, 2, 9, latched=True, depth=2).write(tmp_path / "bag"))
     bag.play(5)
     bag.want("/words")
@@ -184,8 +225,12 @@ def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, open_bag
 
 @pytest.mark.parametrize(("max_bytes", "expected"), [(20, ["2", "3"]), (1, ["3"])])
 def test_repeated_latched_messages_are_limited_by_the_inbox(
-    tmp_path, open_bag, monkeypatch, max_bytes, expected
-):
+    tmp_path: Path,
+    open_bag: Callable[..., PlayedBag],
+    monkeypatch: pytest.MonkeyPatch,
+    max_bytes: int,
+    expected: list[str],
+) -> None:
     inbox = functools.partial(Inbox, max_bytes=max_bytes)  # each message has 10
     monkeypatch.setattr("webviz.sources.player.Inbox", inbox)
     bag = open_bag(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
@@ -196,7 +241,9 @@ def test_repeated_latched_messages_are_limited_by_the_inbox(
     assert bag.texts() == expected
 
 
-def test_all_static_transforms_are_repeated(tmp_path, open_bag):
+def test_all_static_transforms_are_repeated(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = Bag()
     for at_s, child in enumerate(("a", "b", "c")):
         recorded.transform(at_s, "map", child, static=True)
@@ -208,7 +255,9 @@ def test_all_static_transforms_are_repeated(tmp_path, open_bag):
     assert children == ["a", "b", "c"]
 
 
-def test_topics_are_offered_as_they_were_published(tmp_path, open_bag):
+def test_topics_are_offered_as_they_were_published(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = strings(0, best_effort=True)
     recorded.add("/map_name", "std_msgs/msg/String", latched=True)
     recorded.put(0, "/map_name", {"data": "lab"})
@@ -223,7 +272,9 @@ def test_topics_are_offered_as_they_were_published(tmp_path, open_bag):
     assert bag.source.offers()["/words"].requested == ("best_effort", "volatile")
 
 
-def test_an_unknown_type_is_learnt_from_the_bag(tmp_path, open_bag):
+def test_an_unknown_type_is_learnt_from_the_bag(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     text = "string data\nint32 number\n"
     recorded = strings(0)
     recorded.add("/own", "learnt_msgs/msg/Own", definition=text)
@@ -238,7 +289,9 @@ def test_an_unknown_type_is_learnt_from_the_bag(tmp_path, open_bag):
     assert bag.source.warnings == []
 
 
-def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, open_bag):
+def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     register("aged_msgs/msg/Own", "int8 old\n")
     recorded = Bag()
     recorded.add("/own", "aged_msgs/msg/Own", definition="string data\n")
@@ -250,7 +303,9 @@ def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, op
 
 
 @pytest.mark.parametrize("text", ["", "nonsense of a definition!", "other_msgs/Missing part\n"])
-def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(tmp_path, open_bag, text):
+def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], text: str
+) -> None:
     recorded = strings(0, 1)
     recorded.add("/odd", "odd_msgs/msg/Odd", definition=text)
     recorded.put(0, "/odd", b"\x00\x01\x00\x00")
@@ -266,7 +321,9 @@ def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(tmp_path
 
 
 @pytest.mark.parametrize("text", ["string request\n---\nstring response\n", "string words\n"])
-def test_service_events_are_skipped_without_a_parser_s_words(tmp_path, open_bag, text):
+def test_service_events_are_skipped_without_a_parser_s_words(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], text: str
+) -> None:
     recorded = strings(0)
     recorded.add("/ask/_service_event", "odd_msgs/srv/Ask_Event", definition=text)
     recorded.put(0, "/ask/_service_event", b"\x00\x01\x00\x00")
@@ -275,7 +332,7 @@ def test_service_events_are_skipped_without_a_parser_s_words(tmp_path, open_bag,
     assert offer.problem == "service events are unsupported"
 
 
-def test_a_recorded_clock_is_the_time(tmp_path, open_bag):
+def test_a_recorded_clock_is_the_time(tmp_path: Path, open_bag: Callable[..., PlayedBag]) -> None:
     recorded = strings(0, 1, 2, 3)
     recorded.add("/clock", "rosgraph_msgs/msg/Clock")
     for at_s in (0.5, 1.5, 2.5):
@@ -292,7 +349,9 @@ def test_a_recorded_clock_is_the_time(tmp_path, open_bag):
 
 
 @pytest.mark.parametrize("offset_s", [100, START_NS // ns(1) + 2 * 3600])
-def test_transforms_of_another_time_set_the_time(tmp_path, open_bag, offset_s):
+def test_transforms_of_another_time_set_the_time(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], offset_s: int
+) -> None:
     recorded = Bag()
     recorded.add("/tf", TF)
     for at_s in (1, 2):
@@ -304,7 +363,9 @@ def test_transforms_of_another_time_set_the_time(tmp_path, open_bag, offset_s):
     assert f"The transforms begin at {offset_s + 1}.0 s" in warning
 
 
-def test_transforms_that_come_late_do_not_set_the_time(tmp_path, open_bag):
+def test_transforms_that_come_late_do_not_set_the_time(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = Bag()
     recorded.transform(0, "map", "base")
     recorded.messages = [(600, *message[1:]) for message in recorded.messages]
@@ -313,7 +374,9 @@ def test_transforms_that_come_late_do_not_set_the_time(tmp_path, open_bag):
     assert bag.source.warnings == []
 
 
-def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, open_bag):
+def test_topics_are_named_and_remapped_as_for_a_node(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(0).write(tmp_path / "bag"), remappings={"/scan": "/front/scan"})
     names = ("scan", "/scan", "odom", "~/path")
     resolved = [bag.source.resolve(name) for name in names]
@@ -323,7 +386,9 @@ def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, open_bag):
             bag.source.resolve(wrong)
 
 
-def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, open_bag):
+def test_messages_of_one_stamp_arrive_together_however_many_they_are(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     bag = open_bag(strings(*[0.0] * (MAX_BATCH + 5), 1).write(tmp_path / "bag"))
     bag.want("/words")
     bag.source.play_until(bag.source.history.end_ns)
@@ -333,7 +398,9 @@ def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, o
     assert bag.texts() == ["1"]
 
 
-def test_latched_messages_of_all_publishers_are_repeated(tmp_path, open_bag):
+def test_latched_messages_of_all_publishers_are_repeated(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     folder = strings(0, 1, 2, 3, 4, latched=True, depth=2).write(tmp_path / "bag")
     (file,) = files(folder, ".mcap")
     content = file.read_bytes()
@@ -346,7 +413,9 @@ def test_latched_messages_of_all_publishers_are_repeated(tmp_path, open_bag):
         assert bag.texts() == expected
 
 
-def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, open_bag):
+def test_a_publisher_of_unknown_depth_latches_one_message(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     folder = strings(0, 1, 2, 3, 4, latched=True, depth=2).write(tmp_path / "bag")
     (file,) = files(folder, ".mcap")
     content = file.read_bytes()
@@ -360,7 +429,9 @@ def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, open_bag):
     assert bag.texts() == ["2", "3", "4"]
 
 
-def test_a_broken_message_of_the_clock_changes_no_time(tmp_path, open_bag):
+def test_a_broken_message_of_the_clock_changes_no_time(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = strings(0, 3)
     recorded.add("/clock", "rosgraph_msgs/msg/Clock")
     recorded.put(0.5, "/clock", {"clock": {"sec": 10}})
@@ -371,7 +442,9 @@ def test_a_broken_message_of_the_clock_changes_no_time(tmp_path, open_bag):
     assert bag.source.now_ns() == ns(10)
 
 
-def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp_path, open_bag):
+def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = Bag()
     recorded.add("/tf", TF)
     recorded.put(1, "/tf", {"transforms": [stamped("map", "base", 0)]})
@@ -381,12 +454,16 @@ def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp
     assert bag.source.now_ns() == ns(102.5)
 
 
-def test_a_renewed_subscription_does_not_read_the_beginning_again(tmp_path, open_bag, monkeypatch):
+def test_a_renewed_subscription_does_not_read_the_beginning_again(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], monkeypatch: pytest.MonkeyPatch
+) -> None:
     bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     read = []
     messages = BagHistory.messages
 
-    def counting(bag, channels, *span):
+    def counting(
+        bag: BagHistory, channels: Collection[HistoryChannel], *span: int
+    ) -> Iterator[Recorded]:
         read.append([each.topic for each in channels])
         return messages(bag, channels, *span)
 

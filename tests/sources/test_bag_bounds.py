@@ -5,6 +5,8 @@ from __future__ import annotations
 import sqlite3
 import subprocess
 import sys
+from collections.abc import Callable
+from pathlib import Path
 
 import lz4.frame
 import pytest
@@ -13,6 +15,7 @@ from bags import files, strings
 from mcap_files import Chunk, mcap, message, packed, plain, words
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
+from tests.sources.conftest import PlayedBag
 from webviz.data.recordings import unpacking
 from webviz.data.recordings.mcap import McapRecording
 from webviz.data.recordings.unpacking import MAX_BYTES
@@ -24,7 +27,7 @@ EXTRA_MB = 700
 
 
 @pytest.fixture(scope="module")
-def zeros():
+def zeros() -> dict[str, bytes]:
     """4.3 GB of zeros by compression; what they claim is up to the chunk around them."""
     block = bytes(64 << 20)
     compressor = zstandard.ZstdCompressor(write_content_size=False)
@@ -34,7 +37,7 @@ def zeros():
     }
 
 
-def read_in_little_memory(path) -> str:
+def read_in_little_memory(path: Path) -> str:
     """Play a bag in a process with little memory; what it says."""
     code = (
         "import resource, sys\n"
@@ -61,8 +64,14 @@ def read_in_little_memory(path) -> str:
 @pytest.mark.parametrize("compression", ["zstd", "lz4"])
 @pytest.mark.parametrize("with_summary", [True, False])
 def test_a_chunk_that_unfolds_to_more_than_memory(
-    tmp_path, open_bag, monkeypatch, zeros, compression, claimed, with_summary
-):
+    tmp_path: Path,
+    open_bag: Callable[..., PlayedBag],
+    monkeypatch: pytest.MonkeyPatch,
+    zeros: dict[str, bytes],
+    compression: str,
+    claimed: int,
+    with_summary: bool,
+) -> None:
     # The largest size is tried with real memory below; here only the bound.
     monkeypatch.setattr("webviz.data.recordings.mcap_chunks.MAX_BYTES", 8 << 20)
     bomb = Chunk(zeros[compression], min(claimed, 2**64 - 1), compression, (3, 5))
@@ -79,7 +88,9 @@ def test_a_chunk_that_unfolds_to_more_than_memory(
 
 
 @pytest.mark.parametrize("claimed", [300, MAX_BYTES])
-def test_memory_stays_bounded_for_real(tmp_path, zeros, claimed):
+def test_memory_stays_bounded_for_real(
+    tmp_path: Path, zeros: dict[str, bytes], claimed: int
+) -> None:
     file = tmp_path / "bomb.mcap"
     bomb = Chunk(zeros["zstd"], claimed, "zstd", (3, 5))
     file.write_bytes(mcap([plain(0, 1), bomb, plain(7, 9)]))
@@ -87,7 +98,9 @@ def test_memory_stays_bounded_for_real(tmp_path, zeros, claimed):
     assert read_in_little_memory(file).startswith("4 bomb.mcap is damaged: 1 chunk")
 
 
-def test_chunks_of_one_time_are_not_all_unpacked_at_once(tmp_path, monkeypatch):
+def test_chunks_of_one_time_are_not_all_unpacked_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("webviz.data.recordings.mcap.MAX_OPEN", 1000)
     file = tmp_path / "wide.mcap"
     data = words(0, 9)
@@ -110,8 +123,12 @@ def test_chunks_of_one_time_are_not_all_unpacked_at_once(tmp_path, monkeypatch):
 @pytest.mark.parametrize("frames", [1, 3])
 @pytest.mark.parametrize("compression", ["", "zstd", "lz4"])
 def test_honest_chunks_open_however_they_are_packed(
-    tmp_path, open_bag, compression, frames, with_size
-):
+    tmp_path: Path,
+    open_bag: Callable[..., PlayedBag],
+    compression: str,
+    frames: int,
+    with_size: bool,
+) -> None:
     file = tmp_path / "good.mcap"
     chunk = plain(*range(100), compression=compression, frames=frames, with_size=with_size)
     file.write_bytes(mcap([chunk]))
@@ -122,7 +139,7 @@ def test_honest_chunks_open_however_they_are_packed(
     assert bag.source.warnings == []
 
 
-def test_a_large_chunk_opens(tmp_path, open_bag):
+def test_a_large_chunk_opens(tmp_path: Path, open_bag: Callable[..., PlayedBag]) -> None:
     file = tmp_path / "large.mcap"
     data = words(0) + message(3, bytes(96 << 20))
     file.write_bytes(mcap([Chunk(packed(data, "zstd"), len(data), "zstd", (0, 3))]))
@@ -136,8 +153,12 @@ def test_a_large_chunk_opens(tmp_path, open_bag):
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
 def test_a_message_that_unfolds_to_more_than_memory(
-    tmp_path, open_bag, monkeypatch, zeros, storage
-):
+    tmp_path: Path,
+    open_bag: Callable[..., PlayedBag],
+    monkeypatch: pytest.MonkeyPatch,
+    zeros: dict[str, bytes],
+    storage: StoragePlugin,
+) -> None:
     monkeypatch.setattr(unpacking, "MAX_BYTES", 8 << 20)
     recorded = strings(0, 2)
     recorded.put(1, "/words", zeros["zstd"])
@@ -147,7 +168,9 @@ def test_a_message_that_unfolds_to_more_than_memory(
     assert "it expands to more than 8 388 608 bytes" in warning
 
 
-def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, open_bag, monkeypatch):
+def test_a_file_that_unfolds_to_more_than_the_limit(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(unpacking, "MAX_FILE", 1 << 20)
     (file,) = files(strings(0, 1).write(tmp_path / "bag"), ".mcap")
     packed_file = tmp_path / "run.mcap.zst"
@@ -157,7 +180,7 @@ def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, open_bag, monkeypa
     assert "it expands to more than 1 048 576 bytes" in bag.source.warnings[0]
 
 
-def test_unpacking_leaves_room_on_the_disk(tmp_path, monkeypatch):
+def test_unpacking_leaves_room_on_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(unpacking, "KEPT_FREE", 1 << 60)
     packed_file = tmp_path / "run.mcap.zst"
     packed_file.write_bytes(zstandard.compress(bytes(4 << 20)))
@@ -166,7 +189,9 @@ def test_unpacking_leaves_room_on_the_disk(tmp_path, monkeypatch):
     assert fault
 
 
-def test_a_database_that_computes_its_messages(tmp_path, open_bag):
+def test_a_database_that_computes_its_messages(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     database = sqlite3.connect(file)
     database.executescript(
@@ -186,7 +211,9 @@ def test_a_database_that_computes_its_messages(tmp_path, open_bag):
     )
 
 
-def test_messages_that_are_a_view_are_refused(tmp_path, open_bag):
+def test_messages_that_are_a_view_are_refused(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     file = tmp_path / "view.db3"
     database = sqlite3.connect(file)
     database.executescript(
@@ -199,7 +226,9 @@ def test_messages_that_are_a_view_are_refused(tmp_path, open_bag):
         open_bag(file)
 
 
-def test_compressed_files_and_messages_of_ros_still_open(tmp_path, open_bag):
+def test_compressed_files_and_messages_of_ros_still_open(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     for mode in (CompressionMode.FILE, CompressionMode.MESSAGE):
         bag = open_bag(strings(0, 1).write(tmp_path / mode.name, StoragePlugin.SQLITE3, mode))
         assert bag.words_until(1) == ["0", "1"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import PIL.Image
 import pytest
 from bags import strings
 
+from tests.sources.conftest import PlayedBag
 from webviz.api.declared import Topic
 from webviz.data.messages import OccupancyGrid, TFMessage, decode
 from webviz.sources import Subscription
@@ -27,7 +29,7 @@ def write_map(folder: Path) -> Path:
     return path
 
 
-def test_a_map_of_a_file_is_that_of_map_server(tmp_path):
+def test_a_map_of_a_file_is_that_of_map_server(tmp_path: Path) -> None:
     extra = map_of_file(write_map(tmp_path))
     grid: OccupancyGrid = decode(extra.type, extra.cdr)
     assert (extra.topic, grid.header.frame_id) == ("/map", "map")
@@ -38,7 +40,7 @@ def test_a_map_of_a_file_is_that_of_map_server(tmp_path):
     assert 2 * math.atan2(orientation.z, orientation.w) == pytest.approx(0.5)
 
 
-def test_a_static_transform_has_the_pose_of_the_child():
+def test_a_static_transform_has_the_pose_of_the_child() -> None:
     extra = static_transform("map", "odom", 1.0, -2.0, math.pi / 2, 3.0)
     message: TFMessage = decode(extra.type, extra.cdr)
     (transform,) = message.transforms
@@ -47,7 +49,7 @@ def test_a_static_transform_has_the_pose_of_the_child():
     assert tuple(transform.rotation) == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
 
 
-def test_extras_arrive_at_the_start(tmp_path, open_bag):
+def test_extras_arrive_at_the_start(tmp_path: Path, open_bag: Callable[..., PlayedBag]) -> None:
     extra = map_of_file(write_map(tmp_path))
     source = open_bag(strings(0, 1).write(tmp_path / "bag"), [extra]).source
     (publisher,) = source.offers()["/map"].publishers
@@ -61,11 +63,11 @@ def test_extras_arrive_at_the_start(tmp_path, open_bag):
 @pytest.mark.parametrize(
     ("parent", "child", "x"), [("map", "map", 0.0), ("", "odom", 0.0), ("map", "odom", math.nan)]
 )
-def test_an_invalid_transform_is_refused(parent, child, x):
+def test_an_invalid_transform_is_refused(parent: str, child: str, x: float) -> None:
     with pytest.raises(ExtraError):
         static_transform(parent, child, x, 0.0)
 
 
-def test_a_map_that_is_missing_is_refused(tmp_path):
+def test_a_map_that_is_missing_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ExtraError, match=r"nowhere\.yaml"):
         map_of_file(tmp_path / "nowhere.yaml")

@@ -7,7 +7,7 @@ import gc
 import random
 import re
 import sqlite3
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from zlib import crc32
 
@@ -17,6 +17,7 @@ from bags import TF, Bag, files, strings
 from mcap_files import STRING, Chunk, mcap, message, packed
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
+from tests.sources.conftest import PlayedBag
 from webviz.data.messages import DecodeError, decode
 from webviz.data.recordings import open_recording
 from webviz.data.recordings.recording import END_MISSING, Losses
@@ -29,7 +30,7 @@ ZSTD = b"\x28\xb5\x2f\xfd"
 DAMAGED = Path(__file__).parents[3] / "shared/data/bags/damaged"
 
 
-def refusal(path) -> str:
+def refusal(path: Path) -> str:
     with pytest.raises(BagError) as excinfo:
         Player(BagHistory(path))
     text = str(excinfo.value)
@@ -38,14 +39,14 @@ def refusal(path) -> str:
     return text
 
 
-def test_a_bag_that_is_not_there(tmp_path):
+def test_a_bag_that_is_not_there(tmp_path: Path) -> None:
     assert "not found" in refusal(tmp_path / "nowhere.mcap")
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
 def test_a_folder_without_metadata_is_read_as_one_that_is_still_recorded(
-    tmp_path, open_bag, storage
-):
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], storage: StoragePlugin
+) -> None:
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     (folder / "metadata.yaml").unlink()
     (file,) = folder.iterdir()
@@ -58,13 +59,13 @@ def test_a_folder_without_metadata_is_read_as_one_that_is_still_recorded(
 
 
 @pytest.mark.parametrize("text", ["", "[", "rosbag2_bagfile_information: 3", "a: b"])
-def test_a_folder_with_broken_metadata(tmp_path, text):
+def test_a_folder_with_broken_metadata(tmp_path: Path, text: str) -> None:
     folder = strings(0).write(tmp_path / "bag")
     (folder / "metadata.yaml").write_text(text)
     assert f"ros2 bag reindex {folder}" in refusal(folder)
 
 
-def test_a_folder_whose_file_is_missing(tmp_path):
+def test_a_folder_whose_file_is_missing(tmp_path: Path) -> None:
     folder = strings(0).write(tmp_path / "bag")
     for file in files(folder, ".mcap"):
         file.unlink()
@@ -72,7 +73,7 @@ def test_a_folder_whose_file_is_missing(tmp_path):
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_bag_is_closed_while_being_read(tmp_path, storage):
+def test_a_bag_is_closed_while_being_read(tmp_path: Path, storage: StoragePlugin) -> None:
     recording = open_recording(strings(0, 1, 2).write(tmp_path / "bag", storage))
     assert recording.span_ns is not None
     messages = recording.messages(recording.channels, *recording.span_ns)
@@ -83,7 +84,9 @@ def test_a_bag_is_closed_while_being_read(tmp_path, storage):
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, open_bag, storage):
+def test_a_folder_whose_only_file_was_renamed_is_read(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], storage: StoragePlugin
+) -> None:
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     file = next(each for each in folder.iterdir() if each.suffix != ".yaml")
     file.rename(file.with_stem("renamed"))
@@ -96,7 +99,9 @@ def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, open_bag, storag
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
 @pytest.mark.parametrize("key", ["deadline:", "depth:", "durability:", "history:"])
-def test_a_qos_profile_may_lack_a_policy(tmp_path, open_bag, storage, key):
+def test_a_qos_profile_may_lack_a_policy(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], storage: StoragePlugin, key: str
+) -> None:
     folder = strings(0, 1, best_effort=True).write(tmp_path / "bag", storage)
     for file in folder.iterdir():  # the length must not change
         other = f"_{key[1:]}"
@@ -107,7 +112,9 @@ def test_a_qos_profile_may_lack_a_policy(tmp_path, open_bag, storage, key):
     assert bag.words_until(1) == ["0", "1"]
 
 
-def test_an_unreadable_qos_profile_is_left_out(tmp_path, open_bag):
+def test_an_unreadable_qos_profile_is_left_out(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     (file,) = files(strings(0, 1).write(tmp_path / "bag"), ".mcap")
     file.write_bytes(file.read_bytes().replace(b"history:", b"[history"))
     bag = open_bag(file)
@@ -115,7 +122,7 @@ def test_an_unreadable_qos_profile_is_left_out(tmp_path, open_bag):
 
 
 @pytest.mark.parametrize("share", [0.0, 0.01, 0.1])
-def test_an_mcap_file_without_a_whole_message(tmp_path, share):
+def test_an_mcap_file_without_a_whole_message(tmp_path: Path, share: float) -> None:
     (file,) = files(strings(*range(50)).write(tmp_path / "bag"), ".mcap")
     data = file.read_bytes()
     file.write_bytes(data[: int(share * len(data))])
@@ -126,14 +133,16 @@ def test_an_mcap_file_without_a_whole_message(tmp_path, share):
 
 
 @pytest.mark.parametrize("size", [16, 31, 32])
-def test_a_database_that_ends_within_its_header(tmp_path, size):
+def test_a_database_that_ends_within_its_header(tmp_path: Path, size: int) -> None:
     (file,) = files(strings(0).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     file.write_bytes(file.read_bytes()[:size])
     assert f"{file} is damaged (" in refusal(file)
 
 
 @pytest.mark.parametrize("compression", [CompressionMode.NONE, CompressionMode.STORAGE])
-def test_a_truncated_mcap_file_is_shown_up_to_its_end(tmp_path, open_bag, compression):
+def test_a_truncated_mcap_file_is_shown_up_to_its_end(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], compression: CompressionMode
+) -> None:
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag", StoragePlugin.MCAP, compression), ".mcap")
     data = file.read_bytes()
@@ -154,7 +163,9 @@ def test_a_truncated_mcap_file_is_shown_up_to_its_end(tmp_path, open_bag, compre
     assert counts[-1] == 300
 
 
-def test_complete_pages_of_a_truncated_database_are_shown(tmp_path, open_bag):
+def test_complete_pages_of_a_truncated_database_are_shown(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     data = file.read_bytes()
@@ -174,14 +185,16 @@ def test_complete_pages_of_a_truncated_database_are_shown(tmp_path, open_bag):
     assert counts[0] > 60
 
 
-def test_a_database_without_a_whole_table(tmp_path):
+def test_a_database_without_a_whole_table(tmp_path: Path) -> None:
     (file,) = files(strings(*range(2000)).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     file.write_bytes(file.read_bytes()[:3000])
     assert f"sqlite3 {file} .recover" in refusal(file)
 
 
 @pytest.mark.parametrize("kind", ["", "zstd", "lz4", "no summary", "no chunks", "db3"])
-def test_one_flipped_bit_loses_little(tmp_path, open_bag, kind):
+def test_one_flipped_bit_loses_little(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], kind: str
+) -> None:
     recorded = _noisy(60)
     expected = _texts(recorded)
     parts = [b"".join(message(i, expected[i]) for i in range(j, j + 10)) for j in range(0, 60, 10)]
@@ -268,7 +281,9 @@ def _texts(recorded: Bag) -> list[str]:
         (zstandard.compress(random.Random(1).randbytes(999))[:500], "is not a bag"),
     ],
 )
-def test_other_kinds_of_files_are_refused_by_their_kind(tmp_path, name, content, named):
+def test_other_kinds_of_files_are_refused_by_their_kind(
+    tmp_path: Path, name: str, content: bytes, named: str
+) -> None:
     file = tmp_path / name
     file.write_bytes(content)
     assert named in refusal(file)
@@ -276,7 +291,9 @@ def test_other_kinds_of_files_are_refused_by_their_kind(tmp_path, name, content,
 
 @pytest.mark.parametrize("name", ["run", "run.bag", "run.mcap", "run.db3"])
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_bag_under_any_name_is_read(tmp_path, open_bag, storage, name):
+def test_a_bag_under_any_name_is_read(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], storage: StoragePlugin, name: str
+) -> None:
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     (file,) = [each for each in folder.iterdir() if each.suffix != ".yaml"]
     bag = open_bag(file.rename(tmp_path / name))
@@ -284,7 +301,9 @@ def test_a_bag_under_any_name_is_read(tmp_path, open_bag, storage, name):
 
 
 @pytest.mark.parametrize("name", ["run.mcap.zst", "run.mcap.zstd", "run.db3.zstd"])
-def test_a_compressed_file_is_read(tmp_path, open_bag, name):
+def test_a_compressed_file_is_read(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], name: str
+) -> None:
     storage = StoragePlugin.MCAP if "mcap" in name else StoragePlugin.SQLITE3
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     (file,) = [each for each in folder.iterdir() if each.suffix != ".yaml"]
@@ -296,8 +315,8 @@ def test_a_compressed_file_is_read(tmp_path, open_bag, name):
 
 
 def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_broken(
-    tmp_path, open_bag
-):
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     folder = strings(0, 1).write(tmp_path / "bag")
     (first,) = files(folder, ".mcap")
     (second,) = files(strings(2, 3).write(tmp_path / "more"), ".mcap")
@@ -316,7 +335,9 @@ def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_bro
     ]
 
 
-def test_losses_within_the_files_of_a_folder_are_reported(tmp_path, open_bag):
+def test_losses_within_the_files_of_a_folder_are_reported(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     folder = strings(*range(400)).write(tmp_path / "bag", StoragePlugin.SQLITE3)
     (file,) = files(folder, ".db3")
     file.write_bytes(file.read_bytes()[: int(file.stat().st_size * 0.7)])
@@ -328,27 +349,29 @@ def test_losses_within_the_files_of_a_folder_are_reported(tmp_path, open_bag):
     assert warning.endswith("its end is missing; everything else is shown.")
 
 
-def test_a_folder_without_any_bag_file(tmp_path):
+def test_a_folder_without_any_bag_file(tmp_path: Path) -> None:
     assert refusal(tmp_path).endswith(
         "is not a bag: it has no metadata.yaml, MCAP or db3 file. Give an MCAP or db3 file, or a "
         "rosbag2 folder."
     )
 
 
-def test_metadata_that_are_a_pointer_of_git_lfs(tmp_path):
+def test_metadata_that_are_a_pointer_of_git_lfs(tmp_path: Path) -> None:
     folder = strings(0).write(tmp_path / "bag")
     pointer = f"version https://git-lfs.github.com/spec/v1\noid sha256:{'a' * 64}\nsize 9\n"
     (folder / "metadata.yaml").write_text(pointer)
     assert refusal(folder).endswith("metadata.yaml is a Git LFS pointer: run `git lfs pull`.")
 
 
-def test_an_empty_bag(tmp_path):
+def test_an_empty_bag(tmp_path: Path) -> None:
     empty = Bag()
     empty.add("/words", "std_msgs/msg/String")
     assert "contains no messages" in refusal(empty.write(tmp_path / "bag"))
 
 
-def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, open_bag):
+def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = _noisy(60, kilobytes=40)
     folder = recorded.write(tmp_path / "bag", StoragePlugin.MCAP, CompressionMode.STORAGE)
     (file,) = files(folder, ".mcap")
@@ -370,7 +393,9 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, open_b
 
 
 @pytest.mark.parametrize(("name", "why"), [("flip1", "is damaged"), ("trunc70", "has no end")])
-def test_the_beginning_of_a_real_damaged_bag_is_shown(open_bag, name, why):
+def test_the_beginning_of_a_real_damaged_bag_is_shown(
+    open_bag: Callable[..., PlayedBag], name: str, why: str
+) -> None:
     if not DAMAGED.exists():
         pytest.skip("shared data is missing")
     whole, bag = (
@@ -388,8 +413,8 @@ def test_the_beginning_of_a_real_damaged_bag_is_shown(open_bag, name, why):
 
 
 def test_an_mcap_file_that_grows_while_played_shows_the_messages_it_had_when_opened(
-    tmp_path, open_bag
-):
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag"), ".mcap")
     data = file.read_bytes()
@@ -410,8 +435,8 @@ def test_an_mcap_file_that_grows_while_played_shows_the_messages_it_had_when_ope
 
 @pytest.mark.parametrize("journal_mode", ["wal", "delete"])
 def test_a_database_that_is_still_written_shows_its_committed_messages(
-    tmp_path, open_bag, journal_mode
-):
+    tmp_path: Path, open_bag: Callable[..., PlayedBag], journal_mode: str
+) -> None:
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     with contextlib.closing(sqlite3.connect(file)) as recorder:
         recorder.execute(f"PRAGMA journal_mode = {journal_mode}")
@@ -427,7 +452,9 @@ def test_a_database_that_is_still_written_shows_its_committed_messages(
         recorder.rollback()
 
 
-def test_a_topic_with_invalid_qos_text_is_read(tmp_path, open_bag):
+def test_a_topic_with_invalid_qos_text_is_read(
+    tmp_path: Path, open_bag: Callable[..., PlayedBag]
+) -> None:
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     with contextlib.closing(sqlite3.connect(file)) as db, db:
         db.execute("UPDATE topics SET offered_qos_profiles = CAST(x'2d0a20ff0a' AS TEXT)")
@@ -435,14 +462,14 @@ def test_a_topic_with_invalid_qos_text_is_read(tmp_path, open_bag):
     assert bag.words_until(1) == ["0", "1"]
 
 
-def test_an_error_of_sqlite_is_cited_short_and_on_one_line(tmp_path):
+def test_an_error_of_sqlite_is_cited_short_and_on_one_line(tmp_path: Path) -> None:
     error = damaged(tmp_path / "bag.db3", f"malformed database schema (a\n\nb{500 * ' c'})")
     assert str(error).splitlines() == [str(error)]
     assert " (malformed database schema (a b c c" in str(error)
     assert len(str(error)) < 600
 
 
-def test_several_losses_name_the_reason_of_the_first():
+def test_several_losses_name_the_reason_of_the_first() -> None:
     losses = Losses("chunk", "incomplete", {0: "its checksum is wrong"})
     assert str(losses) == "1 chunk is incomplete (its checksum is wrong)"
     losses.skipped[9] = "its zstd data is damaged"

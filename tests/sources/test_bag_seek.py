@@ -28,7 +28,7 @@ displays:
 
 
 @pytest.fixture
-def run(tmp_path) -> Path:
+def run(tmp_path: Path) -> Path:
     bag = Bag()
     bag.add("/scan", "sensor_msgs/msg/LaserScan", best_effort=True)
     bag.add("/slow", "sensor_msgs/msg/LaserScan", best_effort=True)
@@ -81,7 +81,7 @@ def show(run: Path, to_s: float, watched: bool) -> tuple[list[Any], list[Any]]:
 
 
 @pytest.mark.parametrize("to_s", [0.0, 1.0, 2.0, 3.05, 5.9])
-def test_playing_unseen_ends_where_watching_does(run, to_s):
+def test_playing_unseen_ends_where_watching_does(run: Path, to_s: float) -> None:
     watched, watched_rows = show(run, to_s, True)
     unseen, unseen_rows = show(run, to_s, False)
     assert watched
@@ -90,6 +90,6 @@ def test_playing_unseen_ends_where_watching_does(run, to_s):
     assert levels[0] == levels[1]
 
 
-def test_history_is_longer_than_the_last_message(run):
+def test_history_is_longer_than_the_last_message(run: Path) -> None:
     nodes, _ = show(run, 5.9, False)
     assert len(nodes) > 10

@@ -43,7 +43,7 @@ def path(tmp_path: Path) -> Path:
     return bag.write_file(tmp_path / "bag.mcap")
 
 
-def test_statuses_before_the_first_messages_of_a_bag_give_their_times(path):
+def test_statuses_before_the_first_messages_of_a_bag_give_their_times(path: Path) -> None:
     result = texts(path, 0.0)
     assert "No transforms yet, so map is unknown: the bag's first is at 0.8 s." in result
     assert "No transforms yet: the bag's first is at 0.8 s." in result
@@ -53,11 +53,11 @@ def test_statuses_before_the_first_messages_of_a_bag_give_their_times(path):
     assert not [text for text in result if "Start" in text]
 
 
-def test_statuses_of_missing_messages_end_with_the_first_message(path):
+def test_statuses_of_missing_messages_end_with_the_first_message(path: Path) -> None:
     assert not [text for text in texts(path, 1.3) if "yet" in text]
 
 
-def test_a_bag_without_transforms_is_reported(tmp_path):
+def test_a_bag_without_transforms_is_reported(tmp_path: Path) -> None:
     bag = Bag()
     bag.add("/odom", "nav_msgs/msg/Odometry")
     bag.add("/tf", "tf2_msgs/msg/TFMessage")
@@ -69,7 +69,9 @@ def test_a_bag_without_transforms_is_reported(tmp_path):
 
 
 @pytest.mark.parametrize("start_ns", [0, 1])
-def test_a_bag_whose_time_begins_at_zero_needs_no_clock(tmp_path, monkeypatch, start_ns):
+def test_a_bag_whose_time_begins_at_zero_needs_no_clock(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, start_ns: int
+) -> None:
     monkeypatch.setattr("bags.START_NS", start_ns)
     bag = Bag()
     bag.add("/words", "std_msgs/msg/String")
@@ -78,7 +80,9 @@ def test_a_bag_whose_time_begins_at_zero_needs_no_clock(tmp_path, monkeypatch, s
     assert not [text for text in texts(path, 0.0) if "/clock" in text or "use_sim_time" in text]
 
 
-def test_waiting_for_transforms_that_a_bag_does_not_have_is_an_error_after_a_seek_too(tmp_path):
+def test_waiting_for_transforms_that_a_bag_does_not_have_is_an_error_after_a_seek_too(
+    tmp_path: Path,
+) -> None:
     bag = Bag()
     bag.add("/imu", "sensor_msgs/msg/Imu")
     for number in range(250):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Literal
 
 import pytest
 
@@ -18,6 +18,10 @@ def shared(*subscriptions: Subscription) -> Subscription:
     return merged({"/a": subscription} for subscription in subscriptions)["/a"]
 
 
+Reliability = Literal["auto", "reliable", "best_effort"]
+Durability = Literal["auto", "volatile", "transient_local"]
+
+
 @pytest.mark.parametrize(
     ("first", "second", "expected"),
     [
@@ -30,7 +34,7 @@ def shared(*subscriptions: Subscription) -> Subscription:
     ],
 )
 def test_readers_share_a_reliability_that_serves_all(
-    first: Any, second: Any, expected: str
+    first: Reliability, second: Reliability, expected: Reliability
 ) -> None:
     subscriptions = [Subscription(TYPE, Topic("/a", reliability=each)) for each in (first, second)]
     for order in (subscriptions, subscriptions[::-1]):
@@ -48,7 +52,9 @@ def test_readers_share_a_reliability_that_serves_all(
     ],
 )
 def test_readers_that_disagree_on_durability_follow_the_publishers(
-    first: Any, second: Any, expected: tuple[str, bool]
+    first: tuple[Durability, bool],
+    second: tuple[Durability, bool],
+    expected: tuple[Durability, bool],
 ) -> None:
     subscriptions = [
         Subscription(TYPE, Topic("/a", durability=durability), latched=latched)

@@ -16,7 +16,7 @@ from display_messages import MESSAGES
 
 from webviz import Display
 from webviz.api.display import inputs_of
-from webviz.shell.testing import DisplayChecks
+from webviz.shell.testing import DisplayBench, DisplayChecks
 from webviz.shell.testing.display_checks import (
     PATIENCE_S,
     Benches,
@@ -43,7 +43,7 @@ class BuiltInChecks(DisplayChecks):
     scene: ClassVar[Callable[[Any], None] | None] = None
     """Publishes on a bench what shows every property; None publishes `messages`."""
 
-    def publish(self, bench: Any) -> None:
+    def publish(self, bench: DisplayBench) -> None:
         if (scene := type(self).scene) is None:
             super().publish(bench)
         else:

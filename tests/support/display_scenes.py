@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import photos
 from clouds import CLOUD, xyz_cloud
 from moveit_scenes import settle
 
 from webviz.api.display import inputs
+from webviz.shell.testing import DisplayBench
 from webviz.shell.testing.messages import header
 from webviz_displays.robot_model.parts import LinkSettings
 
 SECOND = 1_000_000_000
 
 
-def scans(bench: Any) -> None:
+def scans(bench: DisplayBench) -> None:
     """Two scans of a tilted laser that moves while it turns."""
     tilt = (0.5, 0.5, 0.5, 0.5)  # x points along y, y along z
     for i in range(10):
@@ -34,7 +33,7 @@ def scans(bench: Any) -> None:
         bench.turn()
 
 
-def clouds(bench: Any) -> None:
+def clouds(bench: DisplayBench) -> None:
     """Two clouds of many fields and near points, of a tilted sensor."""
     bench.transform("map", "lidar", (1.0, 0.0, 0.5), (0.5, 0.5, 0.5, 0.5))
     points = [(1.0, 0.0, 0.1), (1.1, 0.2, 0.3), (40.0, 4.0, 4.4), (41.0, 4.1, 4.5)]
@@ -45,14 +44,14 @@ def clouds(bench: Any) -> None:
         bench.turn()
 
 
-def paths(bench: Any) -> None:
+def paths(bench: DisplayBench) -> None:
     for height in (0.0, 1.0):
         poses = [{"pose": {"position": {"x": x, "z": height}}} for x in (0.0, 1.0, 2.0)]
         bench.send("nav_msgs/msg/Path", {"poses": poses}, frame="map")
         bench.turn()
 
 
-def odometries(bench: Any) -> None:
+def odometries(bench: DisplayBench) -> None:
     """Small steps and turns; the last pose is uncertain in space."""
     variances = np.diag([0.1, 0.2, 0.3, 0.1, 0.2, 0.3]).ravel()
     for i in range(250):
@@ -63,13 +62,13 @@ def odometries(bench: Any) -> None:
     bench.turn()
 
 
-def robot_frame(bench: Any) -> None:
+def robot_frame(bench: DisplayBench) -> None:
     """A frame to refer to, away from the fixed frame."""
     bench.transform("map", "robot", (1.0, 2.0, 0.0))
     bench.turn()
 
 
-def _detect(bench: Any) -> None:
+def _detect(bench: DisplayBench) -> None:
     """One detection in an image."""
     box = {"size_x": 1.0, "size_y": 1.0}
     result = {"bbox": box, "results": [{"hypothesis": {"class_id": "box", "score": 0.5}}]}
@@ -77,7 +76,7 @@ def _detect(bench: Any) -> None:
     bench.send("vision_msgs/msg/Detection2DArray", values, frame="camera", topic="/found")
 
 
-def images(bench: Any) -> None:
+def images(bench: DisplayBench) -> None:
     """Two depth images of different ranges, and detections on /found."""
     _detect(bench)
     for depths in ([0.3, 0.6], [2.0, 5.0]):
@@ -87,7 +86,7 @@ def images(bench: Any) -> None:
         bench.turn()
 
 
-def image_planes(bench: Any) -> None:
+def image_planes(bench: DisplayBench) -> None:
     """Depth images, more than their range is the median of by default."""
     bench.transform("map", "camera", (1.0, 0.0, 0.0))
     for scale in (0.1, 0.2, 0.4, 0.8, 1.6, 0.2):
@@ -97,7 +96,7 @@ def image_planes(bench: Any) -> None:
     bench.settle()
 
 
-def camera_infos(bench: Any) -> None:
+def camera_infos(bench: DisplayBench) -> None:
     """A camera, and its image."""
     bench.transform("map", "camera", (1.0, 0.0, 0.0))
     bench.send(photos.INFO, photos.info(16, 12), frame="camera", topic="/camera/camera_info")
@@ -107,7 +106,7 @@ def camera_infos(bench: Any) -> None:
     bench.settle()
 
 
-def cameras(bench: Any) -> None:
+def cameras(bench: DisplayBench) -> None:
     """Two depth images of different ranges, by a camera with distortion; detections on /found."""
     _detect(bench)
     bench.transform("map", "camera", (1.0, 0.0, 0.0))
@@ -121,7 +120,7 @@ def cameras(bench: Any) -> None:
         bench.turn()
 
 
-def depth_clouds(bench: Any) -> None:
+def depth_clouds(bench: DisplayBench) -> None:
     """Depths with a camera info and a colour image, of a tilted camera."""
     bench.transform("map", "camera", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
     colors, depths = photos.room(16, 12)
@@ -135,7 +134,7 @@ def depth_clouds(bench: Any) -> None:
         bench.settle()
 
 
-def frames(bench: Any) -> None:
+def frames(bench: DisplayBench) -> None:
     """One frame that stands still and one that moved twice in a short time, 10 s ago."""
     bench.transform("map", "robot", (1.0, 2.0, 0.0))
     for x in (1.0, 2.0):
@@ -144,7 +143,7 @@ def frames(bench: Any) -> None:
     bench.turn(10.0)
 
 
-def maps(bench: Any) -> None:
+def maps(bench: DisplayBench) -> None:
     """A map of all kinds of cells, and an update, in a frame that moved on."""
     for age, x in ((1, 1.0), (0, 2.0)):
         bench.transform("map", "room", (x, 0.0, 0.0), stamp_ns=bench.now_ns - age * SECOND)
@@ -177,7 +176,7 @@ ROBOT = """
 """
 
 
-def robots(bench: Any) -> None:
+def robots(bench: DisplayBench) -> None:
     bench.transform("map", "base", (1.0, 0.0, 0.0))
     bench.send("std_msgs/msg/String", {"data": ROBOT}, topic="/robot_description")
     state = {"name": ["slide"], "position": [1.5]}
@@ -188,7 +187,7 @@ def robots(bench: Any) -> None:
         bench.turn(0.1)
 
 
-def markers(bench: Any) -> None:
+def markers(bench: DisplayBench) -> None:
     """Two markers, one alone and one in an array, if the display takes both."""
     for name, topic in (("Marker", ""), ("MarkerArray", "_array")):
         marker = {
@@ -208,7 +207,7 @@ def markers(bench: Any) -> None:
     bench.turn()
 
 
-def interactive_markers(bench: Any) -> None:
+def interactive_markers(bench: DisplayBench) -> None:
     """A marker with an arrow, if the display has a namespace."""
     bench.transform("map", "robot")
     bench.offer("/arm/update", "visualization_msgs/msg/InteractiveMarkerUpdate")
@@ -221,7 +220,7 @@ def interactive_markers(bench: Any) -> None:
         bench.turn(0.1)
 
 
-def texts(bench: Any) -> None:
+def texts(bench: DisplayBench) -> None:
     """Messages with a long array and a number of many digits, some soon after the one before."""
     for number, seconds in enumerate((0.0, 0.07, 0.13, 0.06)):
         bench.turn(seconds)

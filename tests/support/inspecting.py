@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from webviz.api.nodes import Instances, Points, has_content
 from webviz.shell.testing import DisplayBench
 
-Benches = Callable[..., Any]
-"""The fixtures `bench`, `shown` and `turned`, which make the bench of a display."""
+Benches = Callable[..., DisplayBench]
+"""The fixtures `bench`, `display_bench`, `turned` and `sensed`, each of which makes a bench."""
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 POSE = {"position": {"x": 1.0, "y": 2.0}, "orientation": {"w": 1.0}}

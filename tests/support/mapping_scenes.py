@@ -7,6 +7,8 @@ from typing import Any
 from grid_maps import GRID_MAP, grid_map
 from octrees import OCTOMAP, OctreeNode, full
 
+from webviz.shell.testing import DisplayBench
+
 SECOND = 1_000_000_000
 
 
@@ -84,7 +86,7 @@ FIELD = {"magnetic_field": {"x": 2e-5, "y": 1e-5, "z": -4e-5}}
 
 
 def _map_and_update(
-    bench: Any, topic: str, whole: tuple[str, Any], update: tuple[str, Any]
+    bench: DisplayBench, topic: str, whole: tuple[str, Any], update: tuple[str, Any]
 ) -> None:
     """A map and an update of it, in a frame that moved on."""
     for age, x in ((1, 1.0), (0, 2.0)):
@@ -96,7 +98,7 @@ def _map_and_update(
         bench.turn()
 
 
-def costmaps(bench: Any) -> None:
+def costmaps(bench: DisplayBench) -> None:
     """A costmap, and an update."""
     update = {"x": 1, "size_x": 1, "size_y": 1, "data": [77]}
     whole = "nav2_msgs/msg/Costmap", COSTMAP
@@ -104,7 +106,7 @@ def costmaps(bench: Any) -> None:
     _map_and_update(bench, "/local_costmap/costmap_raw", whole, changed)
 
 
-def seen_from_above(bench: Any) -> None:
+def seen_from_above(bench: DisplayBench) -> None:
     """An octree, and an update."""
     update = {"x": 0, "width": 1, "height": 1, "data": [30]}
     changed = "map_msgs/msg/OccupancyGridUpdate", update

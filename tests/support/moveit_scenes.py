@@ -8,6 +8,8 @@ from typing import Any
 from octrees import full, octree
 from waiting import until
 
+from webviz.shell.testing import DisplayBench
+
 URDF = """
 <robot name="rail">
   <link name="base">
@@ -128,7 +130,7 @@ MOVEIT_MESSAGES: dict[str, dict[str, Any]] = {
 """A message of each type that draws something."""
 
 
-def moveit(bench: Any) -> None:
+def moveit(bench: DisplayBench) -> None:
     """All that MoveIt sends about a robot; a path of 1000 s at the default speed, twice."""
     bench.transform("map", "base", (1.0, 0.0, 0.0))
     whole = {"scene": {"world": {"collision_objects": [box("wall", 5.0)]}}}
@@ -159,7 +161,7 @@ def moveit(bench: Any) -> None:
     settle(bench)
 
 
-def plan_task(bench: Any) -> None:
+def plan_task(bench: DisplayBench) -> None:
     """A task with two solutions; in simulated time, another one while the newest is played."""
     bench.transform("map", "base", (1.0, 0.0, 0.0))
     other = SOLUTION | {"sub_trajectory": SOLUTION["sub_trajectory"][1:]}
@@ -176,7 +178,7 @@ def plan_task(bench: Any) -> None:
     for x in (1.0, 1.5, 2.0):  # of the link that leaves a trail
         bench.transform("map", "base", (x, 0.0, 0.0))
         bench.turn(100.0)
-    display = bench.display
+    display: Any = bench.display
     if display.use_sim_time:
         bench.send("moveit_task_constructor_msgs/msg/Solution", SOLUTION, topic="/solution")
     for seconds in (0.0, 2100.0, 400.0):
@@ -190,7 +192,7 @@ def plan_task(bench: Any) -> None:
             bench.turn()
 
 
-def settle(bench: Any) -> None:
+def settle(bench: DisplayBench) -> None:
     """Let slow work finish."""
     bench.turn()
     until(

@@ -22,6 +22,13 @@ def let_mouse_in(page: Page) -> None:
     page.evaluate(VISIBLE)
 
 
+def bounds(element: playwright.Locator) -> playwright.FloatRect:
+    """Return the bounding box of an element that is on the page, in pixels."""
+    box = element.bounding_box()
+    assert box is not None
+    return box
+
+
 KEYS = """async () => {
   const { install } = await import("webviz/commands.js");
   if (!window.hasKeys) install();

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from webviz.shell.testing import DisplayBench
+
 ROBOT = """
 <robot name="one">
   <link name="base"/>
@@ -25,7 +27,7 @@ ROBOT = """
 def in_moving_frame(type_name: str, *values: dict[str, Any]) -> Callable[[Any], None]:
     """Messages in a tilted frame that is elsewhere at each of them."""
 
-    def send(bench: Any) -> None:
+    def send(bench: DisplayBench) -> None:
         for number, each in enumerate(values):
             place = (float(number), 2.0 * number, 0.0)
             tilt = (0.5, 0.5, 0.5, 0.5)
@@ -36,7 +38,7 @@ def in_moving_frame(type_name: str, *values: dict[str, Any]) -> Callable[[Any], 
     return send
 
 
-def old_clouds(bench: Any) -> None:
+def old_clouds(bench: DisplayBench) -> None:
     """Receive the points of `clouds` in the message type before PointCloud2."""
     bench.transform("map", "lidar", (1.0, 0.0, 0.5), (0.5, 0.5, 0.5, 0.5))
     points = [(1.0, 0.0, 0.1), (1.1, 0.2, 0.3), (40.0, 4.0, 4.4), (41.0, 4.1, 4.5)]
@@ -51,14 +53,14 @@ def old_clouds(bench: Any) -> None:
         bench.turn()
 
 
-def velocity(bench: Any) -> None:
+def velocity(bench: DisplayBench) -> None:
     bench.transform("map", "base_link", (1.0, 0.0, 0.0))
     bench.transform("map", "robot", (1.0, 2.0, 0.0))
     bench.send("geometry_msgs/msg/Twist", MOTION)
     bench.turn()
 
 
-def torques(bench: Any) -> None:
+def torques(bench: DisplayBench) -> None:
     """A weak and a strong torque of a joint, of which the frames are known with and without
     prefix."""
     urdf = ROBOT.replace("prismatic", "continuous").replace(

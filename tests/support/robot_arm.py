@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from waiting import until
+
+from webviz.shell.testing import DisplayBench
 
 ARM = """
 <robot name="arm">
@@ -25,23 +26,23 @@ ARM = """
 """
 
 
-def wait(at: Any, ready: Callable[[], bool]) -> None:
+def wait(at: DisplayBench, ready: Callable[[], bool]) -> None:
     """Turn the frame loop until slow work is done."""
     at.turn()
     until(ready, at.statuses, turn=at.turn, seconds=90.0)
 
 
-def is_loaded(at: Any) -> bool:
+def is_loaded(at: DisplayBench) -> bool:
     statuses = at.statuses()
     return "URDF" in statuses and "Loading" not in statuses
 
 
-def describe(at: Any, text: str) -> None:
+def describe(at: DisplayBench, text: str) -> None:
     at.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
     wait(at, lambda: is_loaded(at))
 
 
-def place_arm(at: Any) -> None:
+def place_arm(at: DisplayBench) -> None:
     at.transform("map", "base", (1.0, 0.0, 0.0))
     # Half a turn about x: what is 2 above the tool is then 2 below it.
     at.transform("base", "tool", (0.0, 3.0, 0.0), (1.0, 0.0, 0.0, 0.0), stamp_ns=at.now_ns)

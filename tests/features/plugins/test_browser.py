@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
 
 import webviz
+from tests.features.plugins.conftest import Plugin
 from webviz.shell.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
@@ -32,7 +32,7 @@ GREEN, MAGENTA = (25, 255, 0), (255, 0, 255)
 
 @pytest.fixture
 def page(
-    plugin: Any, webviz_domain: int, tmp_path: Path, browser: playwright.Browser
+    plugin: Plugin, webviz_domain: int, tmp_path: Path, browser: playwright.Browser
 ) -> Iterator[Page]:
     """Open the page of a viewer with the plug-in."""
     config = tmp_path / "fence.yaml"
@@ -74,7 +74,7 @@ def is_drawn(page: Page, rgb: tuple[int, int, int]) -> bool:
 
 
 def test_the_picture_follows_the_file_on_every_save(
-    page: Page, plugin: Any, publish: Callable[[], None], caplog: pytest.LogCaptureFixture
+    page: Page, plugin: Plugin, publish: Callable[[], None], caplog: pytest.LogCaptureFixture
 ) -> None:
     def published_and_drawn() -> bool:
         publish()

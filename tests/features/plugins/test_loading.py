@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from tests.features.plugins.conftest import Plugin
 from webviz.api import registry
 from webviz.engine.pipeline.plugins import PluginError, Watcher, load
 from webviz.files.config import dump
@@ -33,7 +34,7 @@ def test_the_example_of_the_readme_is_the_one_tested_here() -> None:
     assert code == Path(__file__).with_name("polygon.py").read_text()
 
 
-def test_a_display_of_a_file_is_one_like_any_other(plugin: Any) -> None:
+def test_a_display_of_a_file_is_one_like_any_other(plugin: Plugin) -> None:
     cls = plugin.load()
     assert registry.display_types()["Area"] is cls
     text = "version: 1\ndisplays:\n- type: Area\n  topic: /fence\n  color: [1, 2, 3]\n"
@@ -43,7 +44,7 @@ def test_a_display_of_a_file_is_one_like_any_other(plugin: Any) -> None:
     assert (again.topic.name, again.color) == ("/fence", (1, 2, 3))
 
 
-def test_every_display_that_the_file_itself_defines_counts(plugin: Any) -> None:
+def test_every_display_that_the_file_itself_defines_counts(plugin: Plugin) -> None:
     plugin.path.write_text(
         "from __future__ import annotations\n"
         "from webviz_displays.grid import Grid\n"
@@ -99,21 +100,21 @@ def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_mistake_is_one_sentence_with_its_line(plugin: Any, text: str, reason: str) -> None:
+def test_a_mistake_is_one_sentence_with_its_line(plugin: Plugin, text: str, reason: str) -> None:
     plugin.path.write_text(text)
     types = registry.display_types()
     assert refusal(plugin.path).startswith(f"{plugin.path}{reason}")
     assert registry.display_types() == types
 
 
-def test_a_refused_file_leaves_the_module_of_the_last_good_one(plugin: Any) -> None:
+def test_a_refused_file_leaves_the_module_of_the_last_good_one(plugin: Plugin) -> None:
     cls = plugin.load()
     plugin.edit(("class Area(Display)", "class Grid(Display)"))
     refusal(plugin.path)
     assert sys.modules[cls.__module__].Area is cls
 
 
-def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path) -> None:
+def test_two_files_cannot_have_a_display_of_one_name(plugin: Plugin, tmp_path: Path) -> None:
     plugin.load()
     other = tmp_path / "other.py"
     other.write_text(plugin.path.read_text())
@@ -121,7 +122,7 @@ def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path
     assert sentence.startswith(f"{other} cannot be used: {plugin.path} has a display named Area")
 
 
-def test_a_save_is_noticed_once(plugin: Any) -> None:
+def test_a_save_is_noticed_once(plugin: Plugin) -> None:
     watcher = Watcher([plugin.path])
     assert watcher.changed() == []
     plugin.edit(("25, 255, 0", "25, 255, 128"))
@@ -129,7 +130,7 @@ def test_a_save_is_noticed_once(plugin: Any) -> None:
     assert watcher.changed() == []
 
 
-def test_a_save_within_the_grain_of_the_clock_is_noticed_by_its_size(plugin: Any) -> None:
+def test_a_save_within_the_grain_of_the_clock_is_noticed_by_its_size(plugin: Plugin) -> None:
     watcher = Watcher([plugin.path])
     time = plugin.path.stat().st_mtime_ns
     plugin.edit(("25, 255, 0", "25, 255, 128"))
@@ -137,7 +138,7 @@ def test_a_save_within_the_grain_of_the_clock_is_noticed_by_its_size(plugin: Any
     assert watcher.changed() == [plugin.path]
 
 
-def test_a_save_by_a_new_file_and_a_removal_are_noticed(plugin: Any, tmp_path: Path) -> None:
+def test_a_save_by_a_new_file_and_a_removal_are_noticed(plugin: Plugin, tmp_path: Path) -> None:
     watcher = Watcher([plugin.path])
     fresh = tmp_path / "fresh"
     fresh.write_text(plugin.path.read_text())

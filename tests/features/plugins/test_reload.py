@@ -8,6 +8,7 @@ import pytest
 import rviz_trees
 from bench import Bench, Benches
 
+from tests.features.plugins.conftest import Plugin
 from webviz import Topic
 from webviz.api.declared import make
 from webviz.api.nodes import Lines
@@ -44,7 +45,7 @@ def reloaded(b: Bench, plugin: Any) -> Any:
 
 
 @pytest.fixture
-def b(plugin: Any, bench: Benches) -> Any:
+def b(plugin: Plugin, bench: Benches) -> Any:
     """A viewer that has heard one polygon, never to be published again."""
     b = bench(make(plugin.load(), {}), strict=False)
     publish(b)
@@ -59,13 +60,13 @@ def test_the_example_draws_the_outline_with_a_status(b: Bench) -> None:
     assert outlines(b) == []
 
 
-def test_reloaded_code_redraws_earlier_messages(b: Bench, plugin: Any) -> None:
+def test_reloaded_code_redraws_earlier_messages(b: Bench, plugin: Plugin) -> None:
     plugin.edit(("self.color)", "self.color, 5.0)"))
     reloaded(b, plugin)
     assert outlines(b) == [(GREEN, 5.0)]
 
 
-def test_values_are_kept_and_defaults_follow_the_file(b: Bench, plugin: Any) -> None:
+def test_values_are_kept_and_defaults_follow_the_file(b: Bench, plugin: Plugin) -> None:
     plugin.edit(("= (25, 255, 0)", "= (0, 0, 255)"))
     assert reloaded(b, plugin).color == BLUE
     assert outlines(b) == [(BLUE, 1.0)]
@@ -77,7 +78,7 @@ def test_values_are_kept_and_defaults_follow_the_file(b: Bench, plugin: Any) -> 
     assert display.topic == Topic("/polygon", depth=7)
 
 
-def test_a_changed_display_stays_where_it_is_in_the_list(plugin: Any, bench: Benches) -> None:
+def test_a_changed_display_stays_where_it_is_in_the_list(plugin: Plugin, bench: Benches) -> None:
     cls = plugin.load()
     displays = [make(cls, {"name": name}) for name in ("A", "B", "C")]
     b = bench(*displays)
@@ -93,7 +94,7 @@ def test_a_changed_display_stays_where_it_is_in_the_list(plugin: Any, bench: Ben
     assert all(type(row.display).__doc__ == "The shape of a polygon." for row in rows)
 
 
-def test_a_new_property_appears_and_works(b: Bench, plugin: Any) -> None:
+def test_a_new_property_appears_and_works(b: Bench, plugin: Plugin) -> None:
     plugin.edit((COLOR, WIDTH + COLOR), ("self.color)", "self.color, self.width)"))
     reloaded(b, plugin)
     assert outlines(b) == [(GREEN, 4.0)]
@@ -106,7 +107,7 @@ def test_a_new_property_appears_and_works(b: Bench, plugin: Any) -> None:
 
 
 def test_a_removed_property_is_dropped_with_a_warning(
-    b: Bench, plugin: Any, caplog: pytest.LogCaptureFixture
+    b: Bench, plugin: Plugin, caplog: pytest.LogCaptureFixture
 ) -> None:
     b.viewer.enqueue(SetProperty("display1", "color", BLUE))
     plugin.edit((COLOR, "    paint: Annotated"), ("self.color", "self.paint"))
@@ -121,7 +122,9 @@ def test_a_removed_property_is_dropped_with_a_warning(
     assert "Plugin" not in b.statuses()
 
 
-def test_a_value_that_no_longer_fits_is_dropped_and_the_others_stay(b: Bench, plugin: Any) -> None:
+def test_a_value_that_no_longer_fits_is_dropped_and_the_others_stay(
+    b: Bench, plugin: Plugin
+) -> None:
     plugin.edit((COLOR, WIDTH + COLOR))
     reloaded(b, plugin)
     b.viewer.enqueue(SetProperty("display1", "width", 9.0))
@@ -141,7 +144,7 @@ def test_a_value_that_no_longer_fits_is_dropped_and_the_others_stay(b: Bench, pl
     ],
 )
 def test_a_broken_save_keeps_the_previous_version_with_the_reason(
-    b: Bench, plugin: Any, old: str, new: str, reason: str, caplog: pytest.LogCaptureFixture
+    b: Bench, plugin: Plugin, old: str, new: str, reason: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     plugin.edit((old, new))
     before = type(b.viewer.config().displays[0])
@@ -158,7 +161,7 @@ def test_a_broken_save_keeps_the_previous_version_with_the_reason(
     assert outlines(b) == [(GREEN, 1.0)]
 
 
-def test_a_deleted_file_keeps_the_picture_until_it_is_back(b: Bench, plugin: Any) -> None:
+def test_a_deleted_file_keeps_the_picture_until_it_is_back(b: Bench, plugin: Plugin) -> None:
     text = plugin.path.read_text()
     plugin.path.unlink()
     reloaded(b, plugin)
@@ -172,7 +175,9 @@ def test_a_deleted_file_keeps_the_picture_until_it_is_back(b: Bench, plugin: Any
     assert "Plugin" not in b.statuses()
 
 
-def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(b: Bench, plugin: Any) -> None:
+def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(
+    b: Bench, plugin: Plugin
+) -> None:
     plugin.edit(("class Area", "class Fence"))
     old = type(reloaded(b, plugin))
     level, text = b.statuses()["Plugin"]
@@ -190,7 +195,7 @@ def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(b: Bench, p
 
 
 def test_code_that_raises_is_a_status_and_the_old_picture_stays(
-    b: Bench, plugin: Any, caplog: pytest.LogCaptureFixture
+    b: Bench, plugin: Plugin, caplog: pytest.LogCaptureFixture
 ) -> None:
     plugin.edit(
         ("        ctx.strip", "        raise RuntimeError('out of ink')\n        ctx.strip")
@@ -206,7 +211,7 @@ def test_code_that_raises_is_a_status_and_the_old_picture_stays(
 
 @pytest.mark.parametrize("hook", ["history(self)", "waits(self, name)", "accept(self, new, kept)"])
 def test_any_hook_may_raise_or_return_nonsense_and_the_viewer_goes_on(
-    b: Bench, plugin: Any, hook: str
+    b: Bench, plugin: Plugin, hook: str
 ) -> None:
     for body in ("raise RuntimeError('out of ink')", "return object()"):
         text = plugin.path.read_text()
@@ -226,7 +231,7 @@ def test_any_hook_may_raise_or_return_nonsense_and_the_viewer_goes_on(
 
 
 def test_an_entry_of_the_config_comes_to_life_with_its_property(
-    plugin: Any, bench: Benches
+    plugin: Plugin, bench: Benches
 ) -> None:
     plugin.load()
     text = "displays: [{type: Area, width: 7.0}, {type: Nowhere}]"
@@ -240,14 +245,14 @@ def test_an_entry_of_the_config_comes_to_life_with_its_property(
     assert "unknown display type `Nowhere`" in b.statuses(1)["Config"][1]
 
 
-def test_a_node_that_cannot_be_drawn_is_a_status(b: Bench, plugin: Any) -> None:
+def test_a_node_that_cannot_be_drawn_is_a_status(b: Bench, plugin: Plugin) -> None:
     plugin.edit(("        ctx.ok", "        ctx.add('nothing', None)\n        ctx.ok"))
     reloaded(b, plugin)
     assert b.statuses()["Display"][1] == "Area failed: TypeError: 'nothing' is not a node: None"
     assert outlines(b) == [(GREEN, 1.0)]
 
 
-def test_the_drawing_of_a_removed_hook_is_removed(b: Bench, plugin: Any) -> None:
+def test_the_drawing_of_a_removed_hook_is_removed(b: Bench, plugin: Plugin) -> None:
     plugin.edit(
         ("sample: Sample, ctx: Context", "samples, ctx: Context"),
         ("def draw", "def draw_all"),
@@ -261,7 +266,7 @@ def test_the_drawing_of_a_removed_hook_is_removed(b: Bench, plugin: Any) -> None
     assert outlines(b) == []
 
 
-def test_another_topic_in_the_file_is_listened_to(b: Bench, plugin: Any) -> None:
+def test_another_topic_in_the_file_is_listened_to(b: Bench, plugin: Plugin) -> None:
     plugin.edit(('Topic("/polygon")', 'Topic("/fence")'))
     reloaded(b, plugin)
     assert "/fence" in b.source.subscriptions
@@ -271,7 +276,7 @@ def test_another_topic_in_the_file_is_listened_to(b: Bench, plugin: Any) -> None
     assert outlines(b) == [(GREEN, 1.0)]
 
 
-def test_work_of_the_old_code_is_not_drawn_by_the_new(b: Bench, plugin: Any) -> None:
+def test_work_of_the_old_code_is_not_drawn_by_the_new(b: Bench, plugin: Plugin) -> None:
     plugin.edit(
         ("    def draw(", "    def new_state(self):\n        return WIDTH\n\n    def draw("),
         ("self.color)", "self.color, ctx.state)"),
@@ -284,7 +289,7 @@ def test_work_of_the_old_code_is_not_drawn_by_the_new(b: Bench, plugin: Any) -> 
     assert outlines(b) == [(GREEN, 6.0)]
 
 
-def test_a_reset_after_a_reload_forgets_as_ever(b: Bench, plugin: Any) -> None:
+def test_a_reset_after_a_reload_forgets_as_ever(b: Bench, plugin: Plugin) -> None:
     reloaded(b, plugin)
     b.viewer.enqueue(Reset())
     b.turn()
@@ -294,7 +299,7 @@ def test_a_reset_after_a_reload_forgets_as_ever(b: Bench, plugin: Any) -> None:
 
 
 def test_a_preserved_rviz_display_becomes_supported_and_keeps_foreign_properties(
-    plugin: Any, bench: Benches
+    plugin: Plugin, bench: Benches
 ) -> None:
     plugin.load()
     remaining = (

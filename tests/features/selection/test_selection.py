@@ -78,7 +78,7 @@ def selection(b: Bench, browser: int = 1) -> Any:
     return things.popitem()[1] if len(things) == 1 else things
 
 
-def test_details_of_a_selection_come_from_its_display_with_frame_and_stamp(dots: Any) -> None:
+def test_details_of_a_selection_come_from_its_display_with_frame_and_stamp(dots: Bench) -> None:
     state = dots.do(Select((dot(1.0),), total=1), PAGE)
     thing = selection(dots)
     assert (thing["display"], thing["name"], thing["title"]) == ("display1", "Pair", "Dot 1")
@@ -88,7 +88,7 @@ def test_details_of_a_selection_come_from_its_display_with_frame_and_stamp(dots:
     assert state.selected == {1: {5: ("display1", False)}}
 
 
-def test_a_click_on_a_replaced_frame_selects_from_its_snapshot(dots: Any) -> None:
+def test_a_click_on_a_replaced_frame_selects_from_its_snapshot(dots: Bench) -> None:
     for x in (2.0, 3.0):
         pose(dots, x)
     dots.do(Select((dot(2.0),), total=1), PAGE)
@@ -118,7 +118,7 @@ def test_a_click_on_a_replaced_frame_selects_from_its_snapshot(dots: Any) -> Non
         NodePicks("/" * 1000, "\0", dot(1.0).items),
     ],
 )
-def test_picks_without_a_snapshot_are_refused(dots: Any, picks: NodePicks) -> None:
+def test_picks_without_a_snapshot_are_refused(dots: Bench, picks: NodePicks) -> None:
     before = dots.states[-1].selected
     answer = dots.viewer.enqueue(Select((picks,), total=1), PAGE)
     dots.until_done(answer)
@@ -127,18 +127,18 @@ def test_picks_without_a_snapshot_are_refused(dots: Any, picks: NodePicks) -> No
     assert dots.states[-1].selected == before
 
 
-def test_one_line_identifies_the_item_under_the_pointer(dots: Any) -> None:
+def test_one_line_identifies_the_item_under_the_pointer(dots: Bench) -> None:
     assert dots.ask(Identify(dot(1.0, 0))) == "Pair · Dot 0 · x 1"
 
 
-def test_snapshots_are_kept_only_while_a_selection_is_possible(dots: Any) -> None:
+def test_snapshots_are_kept_only_while_a_selection_is_possible(dots: Bench) -> None:
     pose(dots, 2.0)
     dots.do(InspectSelections(frozenset({1}), frozenset({1})))
     assert dots.ask(Identify(dot(1.0))) == ""
     assert dots.ask(Identify(dot(2.0))) != ""
 
 
-def test_values_stay_up_to_date_while_they_are_looked_at_and_only_then(dots: Any) -> None:
+def test_values_stay_up_to_date_while_they_are_looked_at_and_only_then(dots: Bench) -> None:
     dots.source.now = 200 * SECOND
     dots.turn()
     clock = NodePicks("display2/tick/", "dot", ((1, 0, (200.0, 0.0, 0.0), None),))
@@ -150,13 +150,14 @@ def test_values_stay_up_to_date_while_they_are_looked_at_and_only_then(dots: Any
     }
     display = dots.states[-1].rows[0].display
     dots.do(InspectSelections(frozenset({1}), frozenset()))
+    assert isinstance(display, DotPair)
     requests = display.requests
     dots.clock += 1.0
     assert selection(dots) == {}
     assert display.requests == requests
 
 
-def test_browsers_select_each_for_themselves_until_they_leave(dots: Any) -> None:
+def test_browsers_select_each_for_themselves_until_they_leave(dots: Bench) -> None:
     dots.do(Select((dot(1.0),), total=1), PAGE)
     dots.do(Select((dot(1.0, 0, id=9),), total=1), OTHER)
     assert {browser: [*things] for browser, things in dots.states[-1].selected.items()} == {
@@ -167,7 +168,7 @@ def test_browsers_select_each_for_themselves_until_they_leave(dots: Any) -> None
     assert [*state.selected] == [2]
 
 
-def test_more_is_added_and_some_is_kept(dots: Any) -> None:
+def test_more_is_added_and_some_is_kept(dots: Bench) -> None:
     dots.do(Select((dot(1.0),), total=1), PAGE)
     state = dots.do(Select((dot(1.0, 0, id=6),), keep=(5, 77), total=2), PAGE)
     assert [*state.selected[1]] == [5, 6]
@@ -175,7 +176,7 @@ def test_more_is_added_and_some_is_kept(dots: Any) -> None:
     assert dots.do(Select(), PAGE).selected == {}
 
 
-def test_a_selection_has_a_limit(dots: Any) -> None:
+def test_a_selection_has_a_limit(dots: Bench) -> None:
     items = tuple((id, 1, (1.0, 1.0, 0.0), (0, 255, 0)) for id in range(MAX_SELECTED + 1))
     answer = dots.viewer.enqueue(Select((NodePicks(DOTS, "dots", items),)), PAGE)
     dots.until_done(answer)
@@ -185,7 +186,7 @@ def test_a_selection_has_a_limit(dots: Any) -> None:
     assert (info["count"], info["total"]) == (1000, 50_000)
 
 
-def test_statistics_are_of_the_numbers_of_each_display(dots: Any) -> None:
+def test_statistics_are_of_the_numbers_of_each_display(dots: Bench) -> None:
     first, second = (NodePicks(DOTS, "dots", dot(1.0, number, number).items) for number in (0, 1))
     dots.do(Select((first,), total=1), PAGE)
     assert "displays" not in dots.states[-1].selections[1]["/info"]
@@ -203,7 +204,7 @@ def test_statistics_are_of_the_numbers_of_each_display(dots: Any) -> None:
     ]
 
 
-def test_only_so_many_replaced_messages_are_held(dots: Any) -> None:
+def test_only_so_many_replaced_messages_are_held(dots: Bench) -> None:
     """A program could otherwise hold every cloud that ever came."""
     for number in range(30):
         keep = tuple(range(number))
@@ -213,14 +214,14 @@ def test_only_so_many_replaced_messages_are_held(dots: Any) -> None:
     assert [*state.selected[1]] == [*range(30 - MAX_PAST, 30)]
 
 
-def test_the_selection_of_a_removed_display_goes(dots: Any) -> None:
+def test_the_selection_of_a_removed_display_goes(dots: Bench) -> None:
     dots.do(Select((dot(1.0),), total=1), PAGE)
     state = dots.do(RemoveDisplay("display1"))
     assert state.selected[1] == {}
     assert selection(dots) == {}
 
 
-def test_a_selected_item_of_a_disabled_display_no_longer_exists(dots: Any) -> None:
+def test_a_selected_item_of_a_disabled_display_no_longer_exists(dots: Bench) -> None:
     dots.source.now = 200 * SECOND
     dots.turn()
     clock = NodePicks("display2/tick/", "dot", ((1, 0, (200.0, 0.0, 0.0), None),))

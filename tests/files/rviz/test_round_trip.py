@@ -476,7 +476,9 @@ def test_marks_of_yaml_in_names_survive_the_config_file() -> None:
 
 
 @pytest.mark.parametrize("background", [None, (48, 48, 48), (1, 2, 3)])
-def test_a_background_is_written_unless_it_follows_the_theme(background: Any) -> None:
+def test_a_background_is_written_unless_it_follows_the_theme(
+    background: tuple[int, int, int] | None,
+) -> None:
     config = Config(settings=config_file.Settings(background=background))
     text, _ = rviz.write(config)
     assert ("Background Color" in text) == (background is not None)

@@ -147,7 +147,7 @@ def test_a_removed_tool_is_not_written_again() -> None:
 
 
 @pytest.mark.parametrize(("key", "entries"), [("Odd: 1", None), ("Tools: 5", 5)])
-def test_a_file_without_a_list_of_tools_is_saved_without_one(key: str, entries: Any) -> None:
+def test_a_file_without_a_list_of_tools_is_saved_without_one(key: str, entries: int | None) -> None:
     config, _ = rviz.read(f"Visualization Manager:\n  {key}\n", "x.rviz")
     tools = [tool for tool in config.tools if isinstance(tool, Tool)]
     assert tools

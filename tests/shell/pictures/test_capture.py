@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import functools
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -19,15 +20,17 @@ from webviz.api.status import Status
 from webviz.api.views import Orbit
 from webviz.files.opening import parse
 from webviz.shell.pictures.capture import Capture, Picture
+from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.pictures.offline_viewer import Readiness
 
 SIZE = (320, 240)
 CONFIG = (Path(__file__).parent / "top.yaml").read_text()
 MARGIN_PX = 3
+Captures = Callable[..., Capture]
 
 
 @pytest.fixture
-def capture(run, renderer) -> Any:
+def capture(run: Path, renderer: HeadlessRenderer) -> Captures:
     """`webviz.capture` of the run in small pictures."""
     return functools.partial(webviz.capture, bag=run, size=SIZE, renderer=renderer)
 
@@ -44,7 +47,7 @@ def column(x: float, distance: float = 20.0) -> float:
     return SIZE[0] / 2 + x / half * SIZE[1] / 2
 
 
-def test_a_picture_shows_the_robot_where_it_was(capture):
+def test_a_picture_shows_the_robot_where_it_was(capture: Captures) -> None:
     shot: Capture = capture(CONFIG, at=2.0)
     assert (shot.pixels.shape, shot.pixels.dtype) == ((240, 320, 3), np.uint8)
     assert scan(shot.pixels).mean(axis=0)[0] == pytest.approx(column(2.1), abs=MARGIN_PX)
@@ -66,20 +69,20 @@ def picture_of(level: Level) -> Picture:
     return Picture(np.zeros((1, 1, 3), np.uint8), "", None, readiness)
 
 
-def test_several_times_are_pictures_in_the_order_of_time(capture):
+def test_several_times_are_pictures_in_the_order_of_time(capture: Captures) -> None:
     shot: Capture = capture(CONFIG, at=["end", 1.0, 3.0])
     assert [picture.at_s for picture in shot.pictures] == [1.0, 3.0, 6.0]
     columns = [scan(picture.pixels).mean(axis=0)[0] for picture in shot.pictures]
     assert columns == pytest.approx([column(x + 0.1) for x in (1, 3, 6)], abs=MARGIN_PX)
 
 
-def test_the_same_bag_makes_the_same_picture_and_the_same_words(capture):
+def test_the_same_bag_makes_the_same_picture_and_the_same_words(capture: Captures) -> None:
     one, other = capture(CONFIG, at=2.5), capture(CONFIG, at=[0.7, 2.5])
     assert (one.pixels == other.pixels).all()
     assert one.statuses == other.statuses
 
 
-def test_displays_keep_messages_before_the_time_of_the_picture(capture):
+def test_displays_keep_messages_before_the_time_of_the_picture(capture: Captures) -> None:
     decaying = CONFIG.replace("size: 0.6,", "size: 0.6, decay_time: 2.5,")
     shot: Capture = capture(decaying, at=5.0)
     columns = scan(shot.pixels)[:, 0]
@@ -87,7 +90,7 @@ def test_displays_keep_messages_before_the_time_of_the_picture(capture):
     assert columns.max() == pytest.approx(column(5.2), abs=2 * MARGIN_PX)
 
 
-def test_views_are_pictures_of_one_moment(capture):
+def test_views_are_pictures_of_one_moment(capture: Captures) -> None:
     near = Orbit(distance=10.0, yaw=-1.570796, pitch=1.5697)
     shot: Capture = capture(CONFIG, at=1.0, views=["Far", near])
     assert [picture.view for picture in shot.pictures] == ["Far", "1"]
@@ -96,21 +99,21 @@ def test_views_are_pictures_of_one_moment(capture):
     assert near.mean(axis=0)[0] == pytest.approx(column(1.1, 10.0), abs=MARGIN_PX)
 
 
-def test_a_frame_that_is_focused_is_in_the_middle(capture):
+def test_a_frame_that_is_focused_is_in_the_middle(capture: Captures) -> None:
     shot: Capture = capture(CONFIG, at="end", focus="base")
     assert scan(shot.pixels).mean(axis=0) == pytest.approx(
         (column(0.1), SIZE[1] / 2), abs=MARGIN_PX
     )
 
 
-def test_a_picture_without_background_is_transparent_around_displays(capture):
+def test_a_picture_without_background_is_transparent_around_displays(capture: Captures) -> None:
     shot: Capture = capture(CONFIG, at=1.0, transparent=True)
     assert shot.pixels.shape == (240, 320, 4)
     opaque = np.argwhere(shot.pixels[..., 3] > 128)[:, ::-1]
     assert opaque.mean(axis=0) == pytest.approx(scan(shot.pixels).mean(axis=0), abs=1)
 
 
-def test_a_display_that_shows_nothing_is_reported_with_the_reason(capture):
+def test_a_display_that_shows_nothing_is_reported_with_the_reason(capture: Captures) -> None:
     config = CONFIG + "- {type: Path, topic: /plan}\n- {type: Path, enabled: false}\n"
     shot: Capture = capture(config)
     assert not shot.is_ok
@@ -120,7 +123,9 @@ def test_a_display_that_shows_nothing_is_reported_with_the_reason(capture):
     assert capture(config, wait_for=["Scan"]).is_ok
 
 
-def test_an_enabled_display_of_an_unsupported_class_is_not_ok(capture, tmp_path):
+def test_an_enabled_display_of_an_unsupported_class_is_not_ok(
+    capture: Captures, tmp_path: Path
+) -> None:
     file = tmp_path / "two.rviz"
     file.write_text("""\
 Visualization Manager:
@@ -139,21 +144,21 @@ Visualization Manager:
     assert capture(file, wait_for=["Grid"]).is_ok
 
 
-def test_displays_of_one_name_are_numbered(capture):
+def test_displays_of_one_name_are_numbered(capture: Captures) -> None:
     config = CONFIG + "- {type: Path, topic: /a}\n- {type: Path, topic: /b}\n"
     statuses = capture(config).statuses
     assert "/a" in statuses["Path"].text
     assert "/b" in statuses["Path (2)"].text
 
 
-def test_a_config_can_be_a_file_a_text_or_a_config(capture, tmp_path):
+def test_a_config_can_be_a_file_a_text_or_a_config(capture: Captures, tmp_path: Path) -> None:
     file = tmp_path / "top.yaml"
     file.write_text(CONFIG)
     pictures = [capture(config).pixels for config in (CONFIG, file, str(file), parse(CONFIG, ""))]
     assert all((picture == pictures[0]).all() for picture in pictures)
 
 
-def test_an_unknown_fixed_frame_is_reported(capture):
+def test_an_unknown_fixed_frame_is_reported(capture: Captures) -> None:
     shot: Capture = capture(CONFIG, fixed_frame="mapp")
     assert not shot.is_ok
     assert 'Did you mean "map"?' in shot.pictures[0].readiness.general["Fixed Frame"].text
@@ -173,7 +178,9 @@ def test_an_unknown_fixed_frame_is_reported(capture):
         ({"ros_args": ["--ros-args", "-p", "a:=1"]}, "'-p' is not supported with a bag"),
     ],
 )
-def test_invalid_options_are_refused_in_one_sentence(capture, options, sentence):
+def test_invalid_options_are_refused_in_one_sentence(
+    capture: Captures, options: dict[str, Any], sentence: str
+) -> None:
     with pytest.raises(webviz.Error) as excinfo:
         capture(CONFIG, **options)
     assert sentence in str(excinfo.value)
@@ -183,12 +190,12 @@ def test_invalid_options_are_refused_in_one_sentence(capture, options, sentence)
 @pytest.mark.parametrize(
     "displays", ["", "displays:\n- {type: Group, enabled: false, displays: [{type: Grid}]}\n"]
 )
-def test_a_config_that_shows_nothing_is_refused(capture, displays):
+def test_a_config_that_shows_nothing_is_refused(capture: Captures, displays: str) -> None:
     with pytest.raises(webviz.Error, match="The config has no enabled display"):
         capture(f"fixed_frame: map\n{displays}")
 
 
-def test_a_picture_waits_for_all_letters_of_labels(renderer):
+def test_a_picture_waits_for_all_letters_of_labels(renderer: HeadlessRenderer) -> None:
     # viser makes the letters that are new for some milliseconds a frame.
     texts = tuple(chr(letter) * 2 for letter in range(0x3B1, 0x3C9))
     places = np.array([(i % 8 - 4, i // 8 - 2, 0) for i in range(len(texts))], np.float32)
@@ -204,13 +211,13 @@ def test_a_picture_waits_for_all_letters_of_labels(renderer):
     assert (first == last).all()
 
 
-def test_a_topic_can_be_remapped(capture):
+def test_a_topic_can_be_remapped(capture: Captures) -> None:
     config = CONFIG.replace("name: Scan", "name: Scan, topic: /front")
     assert not capture(config).is_ok
     assert capture(config, ros_args=["--ros-args", "-r", "/front:=/scan"]).is_ok
 
 
-def test_a_notebook_can_make_pictures(run):
+def test_a_notebook_can_make_pictures(run: Path) -> None:
     async def cell() -> Capture:
         return webviz.capture(CONFIG, bag=run, at=1.0, size=SIZE)
 

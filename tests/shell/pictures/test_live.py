@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import numpy as np
 import photos
 import PIL.Image
 import pytest
+
+from tests.shell.pictures.conftest import Ended
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
@@ -25,7 +28,9 @@ def robot(webviz_domain: int) -> Iterator[Robot]:
     robot.close()
 
 
-def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(robot, tmp_path, screenshot):
+def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(
+    robot: Robot, tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     robot.scans["/scan"] = Scan("base", offset_s=-0.1)
     result = screenshot("-o", "a.png", *SMALL, "--timeout", "60")
     assert result.status == 0, result.errors
@@ -34,7 +39,9 @@ def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(robot, tmp_pat
 
 
 @pytest.mark.usefixtures("robot")
-def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(screenshot):
+def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(
+    screenshot: Callable[..., Ended],
+) -> None:
     result = screenshot("-o", "a.png", *SMALL, "--timeout", "0.5")
     assert result.status == 3, result.errors
     assert "not all displays are OK within 0.5 s" in result.errors
@@ -43,8 +50,8 @@ def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(screensh
 
 @pytest.mark.parametrize(("name", "is_depth"), [("raw", False), ("raw/compressedDepth", True)])
 def test_an_image_of_a_running_camera_is_written_as_it_is(
-    robot, tmp_path, screenshot, name, is_depth
-):
+    robot: Robot, tmp_path: Path, screenshot: Callable[..., Ended], name: str, is_depth: bool
+) -> None:
     colors, depths = photos.room(32, 24)
     millimetres = np.nan_to_num(1000 * depths).astype(np.uint16)
     images = {
@@ -67,7 +74,7 @@ def test_an_image_of_a_running_camera_is_written_as_it_is(
 
 
 @pytest.mark.usefixtures("robot")
-def test_a_missing_image_is_explained_in_one_sentence(screenshot):
+def test_a_missing_image_is_explained_in_one_sentence(screenshot: Callable[..., Ended]) -> None:
     # Longer than a page may hide a pane before its display is not received any more.
     result = screenshot("-o", "a.png", "--image", "/nothing", "--timeout", "2.5", config=None)
     assert result.status != 0

@@ -6,7 +6,9 @@ import contextlib
 import io
 import os
 import stat
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import PIL.Image
@@ -37,7 +39,7 @@ def plain(color: tuple[int, ...], size: tuple[int, int] = (40, 30)) -> PIL.Image
 
 
 @pytest.mark.parametrize("ending", [".png", ".webp", ".jpg", ".JPEG", ".gif"])
-def test_the_format_of_a_picture_follows_its_extension(tmp_path, ending):
+def test_the_format_of_a_picture_follows_its_extension(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"a{ending}"
     save(plain(RED), path)
     with PIL.Image.open(path) as image:
@@ -45,7 +47,7 @@ def test_the_format_of_a_picture_follows_its_extension(tmp_path, ending):
     assert os.listdir(tmp_path) == [path.name]
 
 
-def test_a_picture_can_be_read_by_others_as_far_as_the_umask_lets_them(tmp_path):
+def test_a_picture_can_be_read_by_others_as_far_as_the_umask_lets_them(tmp_path: Path) -> None:
     before = os.umask(0o022)
     try:
         save(plain(RED), tmp_path / "a.png")
@@ -54,7 +56,7 @@ def test_a_picture_can_be_read_by_others_as_far_as_the_umask_lets_them(tmp_path)
     assert stat.S_IMODE((tmp_path / "a.png").stat().st_mode) == 0o644
 
 
-def test_transparency_is_kept(tmp_path):
+def test_transparency_is_kept(tmp_path: Path) -> None:
     for name in ("a.png", "a.webp"):
         save(plain((255, 0, 0, 0)), tmp_path / name)
         with PIL.Image.open(tmp_path / name) as image:
@@ -62,7 +64,7 @@ def test_transparency_is_kept(tmp_path):
 
 
 @pytest.mark.parametrize("ending", [".gif", ".webp"])
-def test_an_animation_shows_every_picture(tmp_path, ending):
+def test_an_animation_shows_every_picture(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"a{ending}"
     save_animation((plain(color) for color in (RED, BLUE, RED)), path, 5.0)
     with PIL.Image.open(path) as image:
@@ -74,7 +76,7 @@ def test_an_animation_shows_every_picture(tmp_path, ending):
     assert np.abs(np.array(frames) - (RED, BLUE, RED)).max() < 5
 
 
-def test_a_contact_sheet_shows_every_picture_above_its_caption():
+def test_a_contact_sheet_shows_every_picture_above_its_caption() -> None:
     sheet = contact_sheet([("one", plain(RED)), ("two", plain(BLUE)), ("three", plain(RED))], 2)
     pixels = np.asarray(sheet)
     red, blue = ((pixels == color).all(axis=2).sum() for color in (RED, BLUE))
@@ -84,12 +86,12 @@ def test_a_contact_sheet_shows_every_picture_above_its_caption():
     assert (caption > 150).any()
 
 
-def test_a_contact_sheet_that_is_too_large_is_refused():
+def test_a_contact_sheet_that_is_too_large_is_refused() -> None:
     with pytest.raises(OutputError, match="the limit is 16000 per side"):
         contact_sheet([("", plain(RED, (8000, 10)))] * 3, 3)
 
 
-def test_names_of_several_pictures_sort_by_time():
+def test_names_of_several_pictures_sort_by_time() -> None:
     path = Path("out/run.png")
     assert numbered(path, "", None, 1) == path
     assert numbered(path, "", 3, 11) == Path("out/run-03.png")
@@ -107,18 +109,20 @@ def test_names_of_several_pictures_sort_by_time():
         ("nowhere/a.png", {}, "No such file or directory"),
     ],
 )
-def test_a_name_that_does_not_do_is_refused_at_once(tmp_path, name, options, sentence):
+def test_a_name_that_does_not_do_is_refused_at_once(
+    tmp_path: Path, name: str, options: dict[str, Any], sentence: str
+) -> None:
     with pytest.raises(OutputError if "nowhere" in name else UsageError, match=sentence):
         check(tmp_path / name, **{"is_animation": False, "transparent": False, **options})
     assert os.listdir(tmp_path) == []
 
 
-def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path):
+def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
     path = tmp_path / "a.gif"
     save(plain(RED), path)
     old = path.read_bytes()
 
-    def broken():
+    def broken() -> Iterator[PIL.Image.Image]:
         yield plain(RED)
         raise RuntimeError("the browser died")
 
@@ -131,7 +135,7 @@ def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
-def test_a_full_disk_is_one_sentence_and_a_device_stays_one(tmp_path):
+def test_a_full_disk_is_one_sentence_and_a_device_stays_one(tmp_path: Path) -> None:
     path = tmp_path / "full.png"
     path.symlink_to("/dev/full")
     noise = np.random.default_rng(1).integers(0, 255, (200, 200, 3), np.uint8)
@@ -153,14 +157,14 @@ def test_a_tree_of_frames_is_a_png(
     assert {(255, 255, 255), (0xF6, 0xF8, 0xFA)} <= colors
 
 
-def test_a_clock_is_written_into_the_lower_left_corner():
+def test_a_clock_is_written_into_the_lower_left_corner() -> None:
     pixels = np.asarray(with_clock(plain(BLUE, (640, 360)), "12.40 s"))
     assert (pixels[:300] == BLUE).all()
     assert (pixels[:, 300:] == BLUE).all()
     assert (pixels != BLUE).any(axis=2).sum() > 200
 
 
-def test_a_video_has_all_pictures(tmp_path):
+def test_a_video_has_all_pictures(tmp_path: Path) -> None:
     name, reason = videos.encoder()
     if not name:
         pytest.skip(f"{reason}: no video can be made")
@@ -171,12 +175,12 @@ def test_a_video_has_all_pictures(tmp_path):
     assert os.listdir(tmp_path) == [path.name]
 
 
-def test_a_video_that_ffmpeg_cannot_make_leaves_nothing(tmp_path):
+def test_a_video_that_ffmpeg_cannot_make_leaves_nothing(tmp_path: Path) -> None:
     name, reason = videos.encoder()
     if not name:
         pytest.skip(f"{reason}: no video can be made")
 
-    def broken():
+    def broken() -> Iterator[PIL.Image.Image]:
         yield plain(RED)
         raise KeyboardInterrupt
 

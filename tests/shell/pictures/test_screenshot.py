@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,7 @@ from program import Program
 from several import several
 from waiting import until
 
+from tests.shell.pictures.conftest import Ended
 from webviz.shell.cli import main as cli
 
 CONFIG = Path(__file__).parent / "top.yaml"
@@ -35,7 +36,7 @@ PATIENCE_S = 180.0
 
 
 @pytest.fixture
-def refusal(screenshot, tmp_path: Path) -> Callable[..., str]:
+def refusal(screenshot: Callable[..., Ended], tmp_path: Path) -> Callable[..., str]:
     """The sentence with which the command refuses; nothing may be written."""
 
     def refusal(*arguments: str) -> str:
@@ -50,7 +51,7 @@ def refusal(screenshot, tmp_path: Path) -> Callable[..., str]:
 
 
 @pytest.fixture
-def start(tmp_path: Path):
+def start(tmp_path: Path) -> Iterator[Callable[..., Program]]:
     """Start the command; it and the browser are ended at the end."""
     log = tmp_path.with_suffix(".log")
     with several(
@@ -78,7 +79,7 @@ def left_of(family: Iterable[psutil.Process]) -> list[psutil.Process]:
     return alive
 
 
-def test_a_picture_of_a_bag(run, tmp_path):
+def test_a_picture_of_a_bag(run: Path, tmp_path: Path) -> None:
     arguments = ["--bag", str(run), "--at", "2", "-o", "a.png", *SMALL]
     result = subprocess.run(
         [*COMMAND, *arguments], capture_output=True, text=True, timeout=PATIENCE_S, cwd=tmp_path
@@ -93,7 +94,9 @@ def test_a_picture_of_a_bag(run, tmp_path):
     assert os.listdir(tmp_path) == ["a.png"]
 
 
-def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, screenshot):
+def test_an_image_of_a_bag_is_written_as_it_is(
+    tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     bag = Bag()
     bag.add("/camera/image_raw", photos.RAW)
     for second in (0, 1, 2):
@@ -119,19 +122,25 @@ def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, screenshot):
     assert "No image to write." in result.errors
 
 
-def test_without_a_config_the_topics_of_the_bag_are_shown(run, screenshot):
+def test_without_a_config_the_topics_of_the_bag_are_shown(
+    run: Path, screenshot: Callable[..., Ended]
+) -> None:
     result = screenshot("--bag", str(run), "-o", "a.png", *SMALL, config=None)
     assert (result.status, result.errors) == (0, "")
 
 
-def test_several_times_and_views_are_files_of_their_own(run, tmp_path, screenshot):
+def test_several_times_and_views_are_files_of_their_own(
+    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     at = ["--at", "1", "--at", "end", "--view", "Far", "--transparent"]
     result = screenshot("--bag", str(run), *at, "-o", "a.png", *SMALL)
     assert result.output.startswith("webviz: wrote a-Far-0.png to a-Far-1.png, 2 pictures")
     assert sorted(os.listdir(tmp_path)) == ["a-Far-0.png", "a-Far-1.png"]
 
 
-def test_several_times_with_the_ending_of_a_gif_are_an_animation(run, tmp_path, screenshot):
+def test_several_times_with_the_ending_of_a_gif_are_an_animation(
+    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     times = ["--from", "1", "--to", "3", "--every", "0.5", "--fps", "4"]
     result = screenshot("--bag", str(run), *times, "-o", "a.gif", *SMALL)
     assert result.status == 0, result.errors
@@ -140,7 +149,9 @@ def test_several_times_with_the_ending_of_a_gif_are_an_animation(run, tmp_path, 
     assert durations == [250] * 5
 
 
-def test_a_contact_sheet_is_one_picture(run, tmp_path, screenshot):
+def test_a_contact_sheet_is_one_picture(
+    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     sheet = ["--every", "2", "--contact-sheet", "--size", "160x90"]
     result = screenshot("--bag", str(run), *sheet, "-o", "a.png")
     assert "4 pictures of 160 x 90 pixels" in result.output
@@ -148,7 +159,9 @@ def test_a_contact_sheet_is_one_picture(run, tmp_path, screenshot):
         assert 320 < image.width < 350
 
 
-def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path, screenshot):
+def test_a_display_that_is_not_ok_makes_a_table_and_status_3(
+    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     options = ["--set", "displays.Scan.topic=/scann", "--bag", str(run), "-o", "a.png", *SMALL]
     result = screenshot(*options)
     assert result.status == 3
@@ -158,7 +171,9 @@ def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path, scre
     assert table[0].startswith("  WARN   Scan  No publisher on /scann. Choose /scan, the nearest ")
 
 
-def test_meshes_below_a_mesh_root_are_drawn(tmp_path, screenshot):
+def test_meshes_below_a_mesh_root_are_drawn(
+    tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     mesh = tmp_path / "meshes" / "box.stl"
     mesh.parent.mkdir()
     trimesh.creation.box().export(mesh)
@@ -175,7 +190,7 @@ def test_meshes_below_a_mesh_root_are_drawn(tmp_path, screenshot):
     assert result.status == 0, result.errors
 
 
-def test_help_lists_every_exit_status(capsys):
+def test_help_lists_every_exit_status(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli(["screenshot", "--help"]) == 0
     text = capsys.readouterr().out
     for status in ("0  ", "1  ", "2  ", "3  ", "4  ", "130"):
@@ -193,8 +208,8 @@ def test_help_lists_every_exit_status(capsys):
     ],
 )
 def test_a_mistake_is_one_sentence_and_status_1(
-    run, refusal: Callable[..., str], arguments, sentence
-):
+    run: Path, refusal: Callable[..., str], arguments: list[str], sentence: str
+) -> None:
     options = [argument.replace("RUN", str(run)) for argument in arguments]
     line = refusal("-o", "a.png", *SMALL, *options)
     assert line.startswith("webviz: ")
@@ -224,12 +239,16 @@ def test_a_mistake_is_one_sentence_and_status_1(
         ),
     ],
 )
-def test_wrong_arguments_are_status_2(capsys, arguments, sentence):
+def test_wrong_arguments_are_status_2(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], sentence: str
+) -> None:
     assert cli(["screenshot", *arguments]) == 2
     assert sentence in capsys.readouterr().err
 
 
-def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path, screenshot):
+def test_only_skipped_topics_that_a_display_wants_are_listed(
+    tmp_path: Path, screenshot: Callable[..., Ended]
+) -> None:
     bag = strings(0, 1)
     for topic in ("/odd", "/other"):
         bag.add(topic, "odd_msgs/msg/Odd", definition="other_msgs/Missing part\n")
@@ -245,7 +264,9 @@ def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path, screensho
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
-def test_a_full_disk_is_one_sentence(run, tmp_path, refusal: Callable[..., str]):
+def test_a_full_disk_is_one_sentence(
+    run: Path, tmp_path: Path, refusal: Callable[..., str]
+) -> None:
     (tmp_path / "a.png").symlink_to("/dev/full")
     line = refusal("--bag", str(run), "-o", "a.png", *SMALL)
     assert line == "webviz: Cannot write a.png: No space left on device."
@@ -257,8 +278,12 @@ def test_a_full_disk_is_one_sentence(run, tmp_path, refusal: Callable[..., str])
     ids=["Ctrl-C in a terminal", "SIGINT"],
 )
 def test_an_interrupted_run_leaves_no_file_and_no_process(
-    run, tmp_path, start: Callable[..., Program], number, whole_family
-):
+    run: Path,
+    tmp_path: Path,
+    start: Callable[..., Program],
+    number: signal.Signals,
+    whole_family: bool,
+) -> None:
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     family = while_drawing(program, tmp_path)
     send(number, family if whole_family else ())
@@ -269,8 +294,8 @@ def test_an_interrupted_run_leaves_no_file_and_no_process(
 
 
 def test_a_terminated_run_ends_although_its_browser_hangs(
-    run, tmp_path, start: Callable[..., Program]
-):
+    run: Path, tmp_path: Path, start: Callable[..., Program]
+) -> None:
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     family = while_drawing(program, tmp_path)
     send(signal.SIGSTOP, family)
@@ -280,7 +305,9 @@ def test_a_terminated_run_ends_although_its_browser_hangs(
     assert left_of(family) == []
 
 
-def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callable[..., Program]):
+def test_a_browser_that_dies_midway_is_one_sentence(
+    run: Path, tmp_path: Path, start: Callable[..., Program]
+) -> None:
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     family = while_drawing(program, tmp_path)
     # Debian starts it by a shell script, which comes first.
@@ -297,7 +324,9 @@ def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callab
     assert left_of(family) == []
 
 
-def test_a_video_is_a_webp_without_ffmpeg(run, tmp_path, screenshot, monkeypatch):
+def test_a_video_is_a_webp_without_ffmpeg(
+    run: Path, tmp_path: Path, screenshot: Callable[..., Ended], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("webviz.shell.pictures.videos.shutil.which", lambda name: None)
     result = screenshot("--bag", str(run), "--every", "2", "--clock", "-o", "a.mp4", *SMALL)
     assert result.status == 4, "a.mp4 is missing"

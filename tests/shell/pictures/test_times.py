@@ -28,13 +28,13 @@ class Span:
         ("1700000010.123456789", 10),
     ],
 )
-def test_a_time_is_a_place_in_the_bag(text, seconds):
+def test_a_time_is_a_place_in_the_bag(text: str, seconds: float) -> None:
     position = position_ns(read_at(text), Span(), "run.mcap")
     assert position - START_NS == pytest.approx(seconds * 1e9, abs=500)
 
 
 @pytest.mark.parametrize("at", [-0.5, 46.3, 99, 1.6e9, 1.8e9])
-def test_a_time_outside_of_the_bag_is_refused_with_the_range(at):
+def test_a_time_outside_of_the_bag_is_refused_with_the_range(at: float) -> None:
     with pytest.raises(TimeError) as excinfo:
         position_ns(at, Span(), "run.mcap")
     assert "is outside of run.mcap. Give 0 to 46.202 s" in str(excinfo.value)
@@ -42,28 +42,28 @@ def test_a_time_outside_of_the_bag_is_refused_with_the_range(at):
 
 
 @pytest.mark.parametrize("text", ["", "soon", "nan", "inf", "1,5", "End"])
-def test_invalid_texts_of_times_are_refused(text):
+def test_invalid_texts_of_times_are_refused(text: str) -> None:
     with pytest.raises(TimeError, match="is not a valid time"):
         read_at(text)
 
 
 @pytest.mark.parametrize("at", [float("nan"), float("inf")])
-def test_numbers_outside_of_times_are_refused(at):
+def test_numbers_outside_of_times_are_refused(at: float) -> None:
     with pytest.raises(TimeError, match="is not a valid time"):
         position_ns(at, Span(), "run.mcap")
 
 
-def test_times_at_equal_distances_end_where_they_should():
+def test_times_at_equal_distances_end_where_they_should() -> None:
     assert every("start", 1, 0.25, Span(), "run") == [0, 0.25, 0.5, 0.75, 1]
     assert every(45, "end", 1, Span(), "run") == pytest.approx([45, 46])
     assert every(3, 3, 1, Span(), "run") == [3]
 
 
-def test_times_that_go_backwards_are_refused():
+def test_times_that_go_backwards_are_refused() -> None:
     with pytest.raises(TimeError, match="Swap them"):
         every(5, 3, 1, Span(), "run")
 
 
-def test_too_many_pictures_are_refused():
+def test_too_many_pictures_are_refused() -> None:
     with pytest.raises(TimeError, match="That makes 46203 pictures; the limit is 2000"):
         every("start", "end", 0.001, Span(), "run")

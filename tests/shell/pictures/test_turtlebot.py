@@ -9,6 +9,7 @@ import PIL.Image
 from turtlebot import BAG, DATA, needs_bag
 
 import webviz
+from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.testing.comparing import share_of_difference
 from webviz.sources.bag.extras import map_of_file, static_transform
 
@@ -18,7 +19,7 @@ DIFFERENT = 0.01
 
 
 @needs_bag
-def test_a_turtlebot_its_map_and_its_config_are_one_picture(renderer):
+def test_a_turtlebot_its_map_and_its_config_are_one_picture(renderer: HeadlessRenderer) -> None:
     shot = webviz.capture(
         DATA / "rviz/turtlebot_bag_files.rviz",
         bag=BAG,
@@ -39,7 +40,9 @@ def test_a_turtlebot_its_map_and_its_config_are_one_picture(renderer):
 
 
 @needs_bag
-def test_without_the_transform_that_the_bag_lacks_the_fixed_frame_is_missed(renderer):
+def test_without_the_transform_that_the_bag_lacks_the_fixed_frame_is_missed(
+    renderer: HeadlessRenderer,
+) -> None:
     shot = webviz.capture(DATA / "rviz/turtlebot_bag_files.rviz", bag=BAG, renderer=renderer)
     assert not shot.is_ok
     assert (

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
-from webviz.api.nodes import Node, Points, Pose
+from webviz.api.nodes import Points, Pose
 from webviz.api.picking import Details
 from webviz.api.status import OtherFixedFrame, Remedy, Status
 from webviz.data.messages import encode, interfaces
@@ -141,8 +141,11 @@ class DisplayBench:
             time.sleep(0.005)
             self.turn()
 
-    def nodes(self) -> dict[str, Node]:
-        """Return the visible nodes by key; keys used in several groups get a number."""
+    def nodes(self) -> dict[str, Any]:
+        """Return the visible nodes of `webviz.api.nodes` by key, with a number if several share it.
+
+        They are `Any`, as a test knows the class of each.
+        """
         return {key: node for key, _, node in self.scene.visible()}
 
     def poses(self) -> dict[str, Pose]:
@@ -181,7 +184,7 @@ class DisplayBench:
             point: a point on it without items, in metres in the frame of the node's group.
 
         Returns:
-            What the display tells of it.
+            Details of the item, by its display.
         """
         group = next(group for group, nodes in self.scene.groups.items() if key in nodes)
         node, _ = self.scene.groups[group][key]
