@@ -23,7 +23,7 @@ _ATTACHMENT = struct.Struct("<qqB16s")
 
 
 def open_session(mode: str, endpoint: str) -> zenoh.Session:
-    """Open a session that scouts nobody.
+    """Open a session without scouting.
 
     Args:
         mode: "router" to listen on the endpoint, "client" to connect to it.

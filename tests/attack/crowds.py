@@ -1,4 +1,4 @@
-"""Connections that never ask, while somebody else sends a request slowly."""
+"""Connections that never ask, while another client sends a request slowly."""
 
 from __future__ import annotations
 

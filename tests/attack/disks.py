@@ -1,4 +1,4 @@
-"""Files that never respond, while somebody's right ends."""
+"""Files that never respond, while a person's right ends."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Hanging(msgspec.Struct):
 
     Args:
         files: that do not respond.
-        ending: of the right of somebody who is connected.
+        ending: of the right of a connected person.
         role: of them.
     """
 
@@ -38,7 +38,7 @@ class Hanging(msgspec.Struct):
 
 
 class Disks(Attack):
-    """Takes the threads that wait for a disk, then ends the right of somebody who is connected.
+    """Takes the threads that wait for a disk, then ends the right of a connected person.
 
     A file system that hangs needs privileges, so the threads wait for something else, in a server
     of this process.

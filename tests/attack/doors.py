@@ -29,9 +29,9 @@ class Door(NamedTuple):
     """One way in.
 
     Args:
-        attacks: kinds of attacks on it; none where nobody else writes the bytes.
+        attacks: kinds of attacks on it; none where no other program writes the bytes.
         modules: patterns of the modules behind it, from the checkout's root.
-        reason: why nobody attacks it, "" if somebody does.
+        reason: why it is not attacked, "" if it is.
     """
 
     attacks: tuple[str, ...]

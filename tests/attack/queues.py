@@ -68,7 +68,7 @@ class Queues(Attack):
         except TimeoutError as error:
             raise Violation(f"the owner's save has no answer within {ANSWER_S:g} s") from error
         except (websockets.exceptions.WebSocketException, ConnectionError) as error:
-            raise Violation(f"somebody was thrown out: {error!r}") from error
+            raise Violation(f"a page was disconnected: {error!r}") from error
         finally:
             self.close()
         if level == "error":

@@ -54,7 +54,7 @@ COMMANDS = sorted(REQUIRED.keys() - {"Dismiss"})
 
 
 def kind_of(role: Role | None) -> str:
-    """The kind of attacks by somebody of a role."""
+    """The kind of attacks by a role."""
     return f"ws {role.label if role else 'no token'}"
 
 
@@ -63,7 +63,7 @@ class Sockets(Attack):
 
     Args:
         target: the viewer.
-        role: of the pages; None for somebody without a token.
+        role: of the pages; None without a token.
     """
 
     least = 20
@@ -90,7 +90,7 @@ class Sockets(Attack):
             if self._visitor is None:
                 if self._role is None:
                     Visitor(self._target.port)
-                    raise Violation("somebody without a token was let in")
+                    raise Violation("a page without a token was let in")
                 self._visitor = self._target.visitor(self._role)
             if case.name == VISER:
                 self._visitor.viser.send(case.data)

@@ -31,7 +31,7 @@ happens."""
 INTERNAL = re.compile(r"^.*(?:Traceback|[Ii]nternal (?:server )?error|handler failed).*$", re.M)
 """Lines of the log that an internal error leaves."""
 WARNINGS = {"PYTHONWARNINGS": "error::RuntimeWarning"}
-"""An overflow that nobody expected would be printed to users."""
+"""An unexpected overflow would be printed to users."""
 EVERY_S = 0.5
 SECRETS = {role: f"token-of-the-attacked-{role.label}" for role in Role}
 PARAMETERS = {role: parameter for parameter, role in LINKS.items()}
@@ -94,7 +94,7 @@ class Target:
             watch.start()
 
     def headers(self, role: Role | None) -> dict[str, str]:
-        """Headers of requests by somebody of a role; None is somebody without a token."""
+        """Headers of requests by a role; None is without a token."""
         if role is None:
             return {}
         if role not in self._cookies:
@@ -107,7 +107,7 @@ class Target:
         return {"Cookie": self._cookies[role]}
 
     def visitor(self, role: Role) -> Visitor:
-        """Somebody of a role who looks at the viewer."""
+        """A person of a role with a page of the viewer."""
         return Visitor(self.port, **self.headers(role))
 
     @property

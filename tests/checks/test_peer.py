@@ -95,7 +95,7 @@ def in_network(tmp_path: Path, commands: str) -> str:
     script = f"{NETWORK}\nPYTHON={sys.executable}\nSSH={ssh}\n{commands}"
     # All processes end with the first one of their namespace.
     program = ["unshare", "-rnmpf", "--mount-proc", "--kill-child", "sh", "-ec", script]
-    # Other tests of this process, and whoever runs it, set variables of ROS.
+    # Other tests of this process, and its parent, set variables of ROS.
     bare = {k: v for k, v in os.environ.items() if not k.startswith(peer_program.PREFIXES)}
     completed = subprocess.run(
         program, capture_output=True, text=True, check=False, timeout=PATIENCE_S, env=bare

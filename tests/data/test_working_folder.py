@@ -58,7 +58,7 @@ def test_nothing_else_is_removed(tmp_path: Path) -> None:
     others = [tmp_path / name for name in ("own_old_runs", "own_12345678x", "other_12345678")]
     for each in others:
         each.mkdir()
-        if each.name != "own_old_runs":  # which nobody has locked, although it has such a name
+        if each.name != "own_old_runs":  # which is not locked, although it has such a name
             (each / LOCK).touch()
     (tmp_path / "own_abcdefgh").symlink_to(others[2])
     (tmp_path / "own_abcdefgi").touch()

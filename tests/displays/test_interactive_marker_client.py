@@ -540,7 +540,7 @@ class MarkerBench:
 
 def test_a_gesture_is_reported_to_the_server_event_by_event(server: Replies) -> None:
     marker_bench = MarkerBench(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    assert marker_bench.drag("move", 5.0) == []  # nobody has pressed
+    assert marker_bench.drag("move", 5.0) == []  # without a press
     assert marker_bench.drag("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
     assert marker_bench.drag("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
     assert marker_bench.drag("move", 1.0, turned=0.5) == []

@@ -106,7 +106,7 @@ def test_a_recorded_turtlebot_is_placed_by_its_own_transforms(bench: Benches) ->
     assert drawn_visuals(at) == loaded
     assert statuses["Meshes"][0] == "ERROR"
     assert f"{total - loaded} shapes missing" in statuses["Meshes"][1]
-    # Nobody on that robot publishes how far its wheels' suspensions are pressed in.
+    # No node of that robot publishes how far its wheels' suspensions are pressed in.
     level, text = statuses["Links"]
     assert level == "ERROR"
     expected = "2 of 38 links without a transform: wheel_drop_left, wheel_drop_right."

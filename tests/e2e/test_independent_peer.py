@@ -1,4 +1,4 @@
-"""Somebody else's DDS stack drives the viewer: Eclipse Cyclone DDS, without ROS."""
+"""Another DDS stack drives the viewer: Eclipse Cyclone DDS, without ROS."""
 
 from __future__ import annotations
 

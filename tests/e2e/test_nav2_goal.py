@@ -226,7 +226,7 @@ def test_servers_that_are_killed_while_they_cancel_end_or_are_not_there_are_name
     page.wait_for(button(page, "Cancel").is_disabled, "the request to cancel")
     robot.end(signal.SIGKILL)
     robot = start_robot()
-    # Cancel works again, as nobody answered; the server that runs now does not know the goal.
+    # Cancel works again, as no server answered; the server that runs now does not know the goal.
     ended = "no longer knows this goal. Send it again.", "has ended. Start Nav2's bt_nav"
     cancel = page.tab.locator(".wv-goal .wv-button:enabled:visible")
 

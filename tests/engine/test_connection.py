@@ -105,6 +105,6 @@ def test_a_publisher_counts_once_its_type_fits_and_the_topic_is_subscribed(
 def test_work_is_under_way_until_its_result_can_be_taken(connected: DisplayConnection) -> None:
     job = connected.run(len, "result")
     assert job.result(60) == 6
-    assert connected.is_busy(), "nobody has taken the result"
+    assert connected.is_busy(), "the result has not been taken"
     connected.look()
     assert not connected.is_busy()

@@ -21,7 +21,7 @@ Calls = list[tuple[Any, ...]]
 
 
 class Batteries(Part):
-    """Has two facts, of which nobody asks for the second."""
+    """Has two facts, of which the second is not asked for."""
 
     name = "Batteries"
 
@@ -53,7 +53,7 @@ def test_a_panel_gets_the_values_it_names_and_no_others(
 
     b = bench(parts=[Batteries])
     monkeypatch.setattr(
-        PartContext, "state", lambda context: pytest.fail("nobody asks for all of it")
+        PartContext, "state", lambda context: pytest.fail("not all of it is asked for")
     )
     panel = Charge()
     show(b, panel)

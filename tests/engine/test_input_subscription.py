@@ -171,7 +171,7 @@ def test_messages_that_waited_together_have_the_rate_they_arrived_at(b: Bench) -
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T)
     cdr = b.source.inbox.drain()["/pose"][0].cdr
-    for number in range(31):  # at 3 Hz, for 10 s in which nobody took them
+    for number in range(31):  # at 3 Hz, for 10 s in which they were not taken
         arrived_s = time.monotonic() - (30 - number) / 3
         b.source.inbox.put("/pose", Raw(cdr, b.source.now, arrived_s))
     assert "31 messages at 3.0 Hz" in b.statuses()["Topic"][1]

@@ -22,7 +22,7 @@ from webviz.engine.state import State
 from webviz.shell.testing.source import SECOND
 
 KINDS = (Command, FileCommand)
-"""Bases of commands, which nobody sends."""
+"""Bases of commands, which are not sent."""
 
 
 class Boom(Exception):

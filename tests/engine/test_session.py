@@ -155,7 +155,7 @@ def test_the_frame_loop_goes_on_while_files_wait_for_the_disk(folder: Path, benc
     assert b.states[-1].file.path == str(folder / "b.yaml")
     assert names(b.states[-1]) == ["B"]
     saved_config = load(folder / "a.yaml")
-    assert saved_config.settings.background != (1, 2, 3)  # as it was when somebody said Save
+    assert saved_config.settings.background != (1, 2, 3)  # as it was at the time of Save
 
 
 def test_the_end_waits_for_a_file_that_is_being_written(folder: Path, bench: Benches) -> None:

@@ -39,7 +39,7 @@ def test_what_does_not_fit_is_refused(name: str, arguments: dict[str, Any], reas
 
 
 class Unread(list[None]):
-    """A list that nobody may read."""
+    """An unreadable list."""
 
     def __iter__(self) -> Iterator[None]:
         pytest.fail("a list was read that is too long")

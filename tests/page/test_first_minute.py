@@ -1,4 +1,4 @@
-"""The page of somebody who is new: while it connects, words below tools, and things to try."""
+"""The page of a newcomer: while it connects, words below tools, and things to try."""
 
 from __future__ import annotations
 

@@ -284,4 +284,4 @@ def test_a_lost_connection_greys_the_page_and_says_so(
     expect(desk.page.locator(".wv-contact")).to_be_visible()
     references.check("connection_lost", capture(desk), tolerance=TOLERANCE)
     desk.page.close()
-    desk.errors.clear()  # Chromium's, that there is nobody
+    desk.errors.clear()  # Chromium's, that there is no server

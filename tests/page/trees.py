@@ -1,4 +1,4 @@
-"""The tree of displays in a tab, as somebody who uses it sees it."""
+"""The tree of displays in a tab, as its user sees it."""
 
 from __future__ import annotations
 

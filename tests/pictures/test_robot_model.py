@@ -73,7 +73,7 @@ def test_links_without_a_transform_are_grey_where_they_were(webviz_harness: Stag
     place_links(harness, DEMO)
     harness.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
     harness.settle()
-    # The wheel's publisher now hangs it below a frame that nobody connects.
+    # The wheel's publisher now hangs it below an unconnected frame.
     harness.transform("axle", "wheel_left_link", stamp_ns=harness.source.now)
     harness.turn()
     harness.check_picture("robot_model/a_lost_wheel_is_grey")

@@ -39,8 +39,8 @@ def robot(harness: Harness, odom: Pose2D = START, laser_yaw: float = 0.0) -> Non
 
     Args:
         harness: where.
-        odom: what somebody publishes as the pose of odom in map.
-        laser_yaw: what somebody publishes as the direction of the laser on the robot.
+        odom: the published pose of odom in map.
+        laser_yaw: the published direction of the laser on the robot.
     """
     harness.transform("map", "odom", (odom.x, odom.y, 0.0), turned(yaw=odom.yaw))
     harness.transform("odom", "base_link", stamp_ns=harness.source.now)

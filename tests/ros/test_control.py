@@ -50,7 +50,7 @@ Viewers = Callable[..., webviz.Viewer]
 
 
 class Client(SpunNode):
-    """Somebody else's node."""
+    """The node of another program."""
 
     def __init__(self, domain: int) -> None:
         super().__init__(domain, "client")

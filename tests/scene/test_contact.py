@@ -13,7 +13,7 @@ from webviz.shell.pictures.browser import Page
 
 BANNER = re.compile(
     r"Connection to webviz lost\. The picture is \d+ s old\. "
-    r"Check that webviz is running; this page reconnects by itself\."
+    r"Check that webviz is running; this page reconnects automatically\."
 )
 
 

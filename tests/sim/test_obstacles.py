@@ -81,7 +81,7 @@ def test_unknown_values_of_options_are_refused() -> None:
 
 
 class UnreadPublisher:
-    """A publisher that nobody reads."""
+    """A publisher without subscribers."""
 
     def publish(self, cdr: bytes) -> None:
         """Do nothing."""

@@ -211,7 +211,7 @@ def test_one_flipped_bit_loses_little(
         file = tmp_path / "bag.mcap"
         has_summary = kind not in ("no summary", "no chunks")
         good = mcap(parts if kind == "no chunks" else chunks, with_summary=has_summary)
-    # Without checksums nobody notices a change within a message, or of its kind of record.
+    # Without checksums no reader notices a change within a message, or of its kind of record.
     wrong = 1 if kind in ("db3", "no chunks") else 0
     noise, least = random.Random(5), 60
     # The first pages of a database, and names of topics at the beginning, have no copy.

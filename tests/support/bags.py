@@ -37,7 +37,7 @@ class Topic:
     best_effort: bool = False
     depth: int = 1
     definition: str = ""
-    """.msg text of a type that nobody else knows."""
+    """.msg text of an unknown type."""
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""Certificates of an authority that nobody trusts."""
+"""Certificates of an untrusted authority."""
 
 from __future__ import annotations
 

@@ -83,6 +83,6 @@ class SlowLink:
 
 
 def deliver(to: asyncio.StreamWriter, data: bytes) -> None:
-    """Write what has come over the link, if somebody is still there."""
+    """Write what has come over the link, if the other side is still there."""
     if not to.is_closing():
         to.write(data)

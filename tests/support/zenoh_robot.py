@@ -58,7 +58,7 @@ def free_port() -> int:
 
 
 def config(mode: str, connect: str = "", listen: str = "", **values: Any) -> zenoh.Config:
-    """Return a config of a session that scouts nobody.
+    """Return a config of a session without scouting.
 
     Args:
         mode: such as "router".

@@ -12,7 +12,7 @@ from pathlib import Path
 from webviz_urdf.robot import RobotDescriptionError
 
 ALLOWED_BY = "WEBVIZ_XACRO"
-"""The environment variable that is 1 if whoever started webviz trusts xacro files."""
+"""The environment variable that is 1 if the user who started webviz trusts xacro files."""
 TIME_S = 20
 MAX_BYTES = 16 << 20
 """Limit in bytes of the expanded text."""

@@ -222,7 +222,7 @@ class _Ended(Exception):
 
     Args:
         reason: a sentence.
-        is_crash: whether it has ended by itself.
+        is_crash: whether the process has crashed.
     """
 
     def __init__(self, reason: str, is_crash: bool = False) -> None:

@@ -35,7 +35,7 @@ class Selective:
 
 
 class SelfPlacing:
-    """A display that places what it has folded by itself, such as markers with stamps of their own.
+    """A display that places its own content, such as markers with stamps of their own.
 
     What a seek passes is not drawn, and its transforms are gone when the seek ends.
     """
@@ -87,7 +87,7 @@ class Comparable:
 
 
 class ProtocolClient:
-    """A display that follows a protocol, such as that of a server that has to be asked first."""
+    """A display with a request and response protocol, such as that of a marker server."""
 
     __slots__ = ()
 

@@ -19,7 +19,7 @@ class ReceivedMessages:
         publishers: labels of the nodes that publish it with the right type.
         endpoints: identities of these publishers; those of a node that is started again are new.
         is_ready: whether a subscription exists, so that no message is missed from now on.
-        has_gap: whether messages were dropped, or missed while nobody listened.
+        has_gap: whether messages were dropped, or missed without a subscription.
         is_recorded: whether they are of a bag, which has no services.
     """
 

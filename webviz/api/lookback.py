@@ -12,7 +12,7 @@ class Lookback:
     """The messages of one input before a time that make up what is shown at that time.
 
     Without arguments, all of them. Each argument narrows it; a message that any of them leaves out
-    is not read when somebody seeks in a recording.
+    is not read on a seek in a recording.
 
     Args:
         count: number of newest messages; 0 is unlimited.

@@ -170,7 +170,7 @@ class Ui(Protocol):
         """Add an empty place for sliders; `Sliders.show` fills it.
 
         Args:
-            edit: called with name, value and browser when somebody moves one.
+            edit: called with name, value and browser on each move.
         """
         ...
 
@@ -215,7 +215,7 @@ class Panel(Declared, kw_only=True, dict=True):
     kind = "panel"
     opens: ClassVar[Literal["at start", "side", "below"]] = "at start"
     """The place where it opens: as a tab of each viewer whose config lists no panels ("at start"),
-    or once the config or somebody adds it: as a tab or, for wide ones, below the scene."""
+    or once the config or a user adds it: as a tab or, for wide ones, below the scene."""
 
     icon: ClassVar[str] = "sidebar"
     """An icon as that of a display (`Display.icon`), for the list of panels."""
@@ -282,7 +282,7 @@ class Panel(Declared, kw_only=True, dict=True):
         """Note why a message of one of these topics cannot be decoded."""
 
     def start_over(self) -> None:
-        """Discard received data: time has gone back, or somebody asks for it."""
+        """Discard received data: time has gone back, or a user asks for it."""
 
     def target_frames(self) -> frozenset[str]:
         """Return the frames that what the page draws of the panel follows while the tab is open."""
@@ -292,6 +292,6 @@ class Panel(Declared, kw_only=True, dict=True):
         """Return the topics to publish on while the tab is open: message types by full name.
 
         Messages are sent by the command `webviz.commands.Publish`. Other topics are refused unless
-        somebody allows them, and their first messages get lost while subscribers connect.
+        an owner allows them, and their first messages get lost while subscribers connect.
         """
         return {}

@@ -12,7 +12,7 @@ import msgspec
 from webviz.data.transforms.reasons import Explanation
 
 LOADING = "Loading"
-"""Key of the status of a display that will draw more by itself: files or threads are at work."""
+"""Key of the status of a display that will soon draw more: files or threads are at work."""
 
 
 class Level(enum.IntEnum):

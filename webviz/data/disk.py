@@ -34,7 +34,7 @@ class DiskThreads:
         self._work: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._idle = 0
-        """Threads that wait for work that nobody has promised them."""
+        """Idle threads without a job ahead."""
 
     def start(self, work: Callable[[], T]) -> Future[T]:
         """Start work in a thread of its own, which does not keep the program from ending.

@@ -1,4 +1,4 @@
-"""Counts, lists, problems and joins of sentences, and numbers that somebody entered."""
+"""Counts, lists, problems and joins of sentences, and entered numbers."""
 
 from __future__ import annotations
 

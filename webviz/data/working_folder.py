@@ -51,7 +51,7 @@ def _locked(prefix: str, parent: Path | None, stack: contextlib.ExitStack) -> Pa
             lock(descriptor)
         except BlockingIOError:  # it is being removed
             continue
-        except OSError:  # a file system without locks: nobody removes it
+        except OSError:  # a file system without locks: it stays
             return folder
         if (folder / LOCK).exists():
             return folder

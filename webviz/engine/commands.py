@@ -38,7 +38,7 @@ class FileCommand(Command, frozen=True):
 
 
 class PageCommand(msgspec.Struct, frozen=True):
-    """Base of what the server carries out for pages by itself, without the frame loop."""
+    """Base of commands that the server carries out for pages without the frame loop."""
 
 
 def wrong_text(command: Command) -> str:

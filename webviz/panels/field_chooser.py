@@ -18,7 +18,7 @@ class FieldChooser:
 
     Args:
         fields: returns the first paths in a message that can be added.
-        add: called with a message path that somebody adds, and their browser.
+        add: called with a message path that a user adds, and their browser.
     """
 
     def __init__(

@@ -184,7 +184,7 @@ function choice(boxes) {
 }
 
 /**
- * The canvas, and the part of the drawing that is seen in it: all until somebody moves or zooms.
+ * The canvas, and the part of the drawing that is seen in it: all until the user moves or zooms.
  *
  * @param {() => Drawing} drawing
  */

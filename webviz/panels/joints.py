@@ -21,7 +21,7 @@ from webviz_urdf import Joint, RobotDescriptionError, leader_of
 
 STATE = "sensor_msgs/msg/JointState"
 PAUSE_S = 2.0
-"""A panel that nobody has looked at for so long stops publishing."""
+"""A panel that no page has shown for this long stops publishing."""
 FARTHEST = 1e6
 """Limits beyond are no limits."""
 

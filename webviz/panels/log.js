@@ -227,7 +227,7 @@ const linesIn = (chunk, number, matches) =>
   });
 
 /**
- * Keeps a list at its end until somebody scrolls up, and again once they are back there.
+ * Keeps a list at its end until the user scrolls up, and again once they are back there.
  *
  * @param {HTMLElement} list
  */

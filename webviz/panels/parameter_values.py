@@ -14,7 +14,7 @@ INT64 = 2**63
 
 
 def parse(text: str, kind: int) -> Value:
-    """Return a value from what somebody entered.
+    """Return a value from entered text.
 
     Raises:
         Error: it does not fit the type.

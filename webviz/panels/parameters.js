@@ -133,7 +133,7 @@ function rowsOf(send) {
 }
 
 /**
- * Shows the value of a parameter, unless somebody is entering another one.
+ * Shows the value of a parameter, unless the user is entering another one.
  *
  * @param {Send} send
  * @param {Element} element

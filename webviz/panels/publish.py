@@ -19,7 +19,7 @@ from webviz.panels.sending import SendingPanel
 MAX_RATE_HZ = 10.0
 """Panels are shown a few times a second, and publish then."""
 PAUSE_S = 2.0
-"""A panel that nobody has looked at for so long stops publishing."""
+"""A panel that no page has shown for this long stops publishing."""
 
 
 class PublishMessage(SendingPanel):

@@ -16,7 +16,7 @@ from webviz.data.words import listed
 ASK_S = 5.0
 """Interval between requests to servers that have not answered."""
 DEFAULT = "Default"
-"""The choice of Nav2 itself, before somebody chooses."""
+"""The choice of Nav2 itself, before a user chooses."""
 STRING = "std_msgs/msg/String"
 STRING_ARRAY = 9
 """Constant of rcl_interfaces/msg/ParameterType."""

@@ -87,7 +87,7 @@ def open_server(
 def open_behind(front: Door, path: str, max_pages: int) -> Server:
     """Open a server behind another one, which hands requests over to it.
 
-    Nobody may do more there than an operator.
+    Operator is the highest role there.
 
     Args:
         front: of the other one.

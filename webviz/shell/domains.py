@@ -1,4 +1,4 @@
-"""ROS domains that nobody on this machine uses, and one for each demo."""
+"""Unused ROS domains of this machine, and one for each demo."""
 
 from __future__ import annotations
 

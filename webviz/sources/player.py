@@ -54,12 +54,12 @@ class Player:
         self.selected: tuple[int, int] | None = None
         """The first and the last position to play; None plays all."""
         self.is_ready = False
-        """True to play as soon as a browser is connected, until somebody plays or pauses."""
+        """True to play as soon as a browser is connected, until a user plays or pauses."""
         self.history = history
         """Shown, unless topics are live."""
         history.wake = self.inbox.arrived.set
         self.is_playing = False
-        """True while the position moves on by itself."""
+        """True while the position moves on."""
         self._target_ns: int | None = None
         self._has_to_jump = False
         self._is_returning, self._returns_s = False, 0.0

@@ -18,7 +18,7 @@ from webviz_urdf import LoadRequest
 BLOCK = 1024
 """Rows per block."""
 LARGE = 2000
-"""Points above which a marker is a block by itself."""
+"""Points above which a marker is a block of its own."""
 MAX_PLACES = 500
 """Groups of a display: each frame that markers are locked to, and each cell."""
 CELL_M = 4000.0

@@ -120,7 +120,7 @@ class Store:
                 yield
             self._put(markers, numbers[start : start + AT_ONCE], ok, received_ns)
         if max(len(doomed), len(numbers)) > AT_ONCE:
-            yield  # drawing takes a turn by itself
+            yield  # drawing takes a turn of its own
         if is_array:
             remarks.duplicates = effect.duplicates[:REMEMBERED]
         if effect.unknown:

@@ -213,7 +213,7 @@ class TF(Display):
         ages = state.ages.update(poses.stamps_ns, now_ns, partial(receptions, ctx.frames.buffer))
         is_young = ages <= self.frame_timeout
         is_shown = selection.selected & poses.ok & is_young
-        # By name, as the order in which frames came depends on when somebody began to listen.
+        # By name, as the order in which frames came depends on when the subscription began.
         self._draw(selection.order[is_shown[selection.order]], poses, selection.parents, ages, ctx)
         self._report(selection.selected, is_shown, poses, ctx)
         ctx.ok("Tree", f"{selection.tree}.")

@@ -43,7 +43,7 @@ class Stream:
 
     @property
     def is_latched(self) -> bool:
-        """Return whether it is sent once, to whoever comes."""
+        """Return whether it is sent once, to each subscriber."""
         return self.hz == 0
 
     @cached_property

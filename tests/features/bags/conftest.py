@@ -28,7 +28,7 @@ class LibraryViewer:
     Args:
         viewer: of live topics, in whose memory there is a transform.
         folder: of the bags that pages may open.
-        outside: a folder that nobody named.
+        outside: a folder that was not named.
         guest: a page of the owner.
     """
 

@@ -32,7 +32,7 @@ CDR = b"\0\1\0\0"
 
 
 def robot() -> Bag:
-    """A robot with two lasers, a camera, and a topic that nobody publishes on."""
+    """A robot with two lasers, a camera, and a topic without a publisher."""
     bag = Bag()
     for topic, message, frame in (
         ("/front/scan", "LaserScan", "front"),

@@ -1,4 +1,4 @@
-"""A package of somebody else, found by its entry point alone."""
+"""A package of another author, found by its entry point alone."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ class TokenViewer:
         return f"webviz_{self.viewer.port}", token.cookie
 
     def enter(self, role: Role, address: str = "") -> Guest:
-        """Join as somebody with a role, from this machine or by the proxy from another address."""
+        """Join as a person with a role, from this machine or by the proxy from another address."""
         cookie = "=".join(self.cookie(role))
         forwarded = {"X-Forwarded-For": address} if address else {}
         self.guests.append(Guest(Served(self.viewer.port), Cookie=cookie, **forwarded))

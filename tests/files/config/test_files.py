@@ -66,7 +66,7 @@ def test_bytes_that_are_not_a_config_are_an_error(path: Path, data: bytes, sente
 @pytest.mark.parametrize("kind", ["fifo", "socket", "device"])
 def test_only_regular_files_are_read(path: Path, kind: str) -> None:
     if kind == "fifo":
-        os.mkfifo(path)  # which to open waits for somebody who writes
+        os.mkfifo(path)  # which to open waits for a writer
     elif kind == "socket":
         with socket.socket(socket.AF_UNIX) as server:
             server.bind(str(path))

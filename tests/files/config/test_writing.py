@@ -25,7 +25,7 @@ from webviz.files.opening import load, parse, save
 
 TYPES = display_types()
 FIXED = ("version", "rviz")
-"""Settings with values that nobody chooses."""
+"""Settings with unusual values."""
 LIMITS = ("gt", "ge", "lt", "le", "pattern", "max_length")
 TEXTS = st.text(st.characters(exclude_categories=["Cs"]), max_size=12) | st.sampled_from(
     [

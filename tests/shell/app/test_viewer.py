@@ -32,7 +32,7 @@ displays:
 
 
 def is_gone(url: str) -> bool:
-    """Return whether nobody serves a page."""
+    """Return whether no server serves a page."""
     try:
         urllib.request.urlopen(url, timeout=60).close()
     except OSError:

@@ -25,7 +25,7 @@ def test_a_topic_whose_publishers_ended_keeps_its_type() -> None:
     offers = {"/a": Offer((Publisher("/a", STRING, "best_effort", "volatile"),))}
     channels = Channels(lambda: offers)
     channels.look()
-    offers = {"/a": Offer(())}  # subscribed to, by somebody else
+    offers = {"/a": Offer(())}  # subscribed to, by another program
     channels.look()
     channel = channels.find("/a")
     assert channel is not None

@@ -19,7 +19,7 @@ class ThrottledTab(Check):
     The page of a browser is in the background, frozen, or its timers are seconds late.
 
     Why:
-        Browsers draw nothing in tabs that nobody sees, freeze them to save energy, and a processor
+        Browsers draw nothing in hidden tabs, freeze them to save energy, and a processor
         that is too busy delays everything. What such a page shows is old.
 
     Repair:

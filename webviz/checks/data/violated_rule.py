@@ -15,7 +15,7 @@ class ViolatedRule(Check):
     A rule of the config (`watch:`) or of the command line (`webviz test --rule`) does not hold.
 
     Why:
-        Somebody has set a limit for this value, such as the share of a laser scan that lies on the
+        A limit has been set for this value, such as the share of a laser scan that lies on the
         walls of the map.
 
     Repair:

@@ -1,4 +1,4 @@
-"""Robots whose joints nobody measures."""
+"""Robots without measured joints."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ OLD = "TF_OLD_DATA"
 class RefusedTransforms(Check):
     """Transforms that are refused.
 
-    Transforms arrive that tf2 refuses: with values that are not finite, a quaternion that is none,
+    Transforms arrive that tf2 refuses: with values that are not finite, an invalid quaternion,
     or a frame that is its own parent.
 
     Why:

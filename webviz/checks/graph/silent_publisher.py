@@ -41,7 +41,7 @@ STREAMS = {
     ODOMETRY,
     "tf2_msgs/msg/TFMessage",
 }
-"""Types that a node sends by itself; others, such as goals, wait for an event."""
+"""Types that a node sends unprompted; others, such as goals, wait for an event."""
 
 OVER_ZENOH = "Over Zenoh, `access_control` of a router may deny its messages, too."
 

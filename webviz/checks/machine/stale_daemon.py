@@ -19,7 +19,7 @@ class StaleDaemon(Check):
         so that the command line sees other nodes than the viewer does.
 
     Repair:
-        Stop it; it starts again by itself:
+        Stop it; it restarts automatically:
 
             ros2 daemon stop
     """
@@ -39,7 +39,7 @@ class StaleDaemon(Check):
             yield self.found(
                 f"The daemon of ros2 runs with {setting}={value or 'unset'}, this program with "
                 f"{own or 'unset'}.",
-                "Stop the daemon, which starts again by itself.",
+                "Stop the daemon; it restarts automatically.",
                 subject=setting,
                 severity=Severity.NOTE,
                 evidence={"daemon": value, "here": own},

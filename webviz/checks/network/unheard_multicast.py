@@ -1,4 +1,4 @@
-"""Interfaces on which nobody listens to DDS."""
+"""Interfaces without a listener for DDS."""
 
 from __future__ import annotations
 

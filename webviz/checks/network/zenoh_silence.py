@@ -21,7 +21,7 @@ class ZenohSilence(Check):
     """Zenoh network that announces topics and passes on no message.
 
     Liveliness tokens of publishers arrive over Zenoh, but no message of any topic that its node
-    sends by itself.
+    sends unprompted.
 
     Why:
         Tokens and messages are rights of their own in the access control of a router: one that

@@ -16,7 +16,7 @@ class Invisible(Check):
     The alpha of a display is 0, so that nothing of it can be seen.
 
     Why:
-        The display works and shows nothing, which is easy to overlook in a config of somebody else.
+        The display works and shows nothing, which is easy to overlook in an unfamiliar config.
 
     Repair:
         Set alpha to 1.

@@ -99,7 +99,7 @@ def learn(type_name: str, request: str, response: str) -> None:
 
 
 def _described(part: str, text: str) -> list[Any]:
-    """Return the fields of a part, and register those of its types that nobody knows."""
+    """Return the fields of a part, and register its unknown types."""
     if not text.strip():
         return []
     package, _, name = typestore.full_name(part).split("/")

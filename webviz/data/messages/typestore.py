@@ -176,7 +176,7 @@ def find_with(finder: Callable[[str], object]) -> None:
 
 
 def find(type_name: str) -> None:
-    """Register a type whose definition is missing, if somebody knows it."""
+    """Register a type whose definition is missing, if a finder has it."""
     for finder in _finders:
         finder(full_name(type_name))
 

@@ -177,7 +177,7 @@ class RecordingFolder:
     def _describe(self) -> None:
         """Write metadata.yaml, in place of the one before, if it names other files or topics.
 
-        Its counts are those of that moment until the end; nobody needs them to read the messages.
+        Its counts are those of that moment until the end; readers of messages do not need them.
         """
         state = len(self._written), self.deleted, len(self._file.counts) if self._file else -1
         if state == self._last_state:

@@ -57,7 +57,7 @@ def unpack(data: bytes, compression: str, limit: int) -> tuple[bytes, str]:
 
 
 def unpack_message(data: bytes, encoding: str) -> tuple[bytes, str]:
-    """Unpack a message that rosbag2 has compressed by itself, which no other file needs to say.
+    """Unpack a message that rosbag2 has compressed separately, which no other file needs to say.
 
     Messages in CDR begin with a zero, which no compressed data does.
 

@@ -38,7 +38,7 @@ CREDITS = {
 
 
 class _NoRedirects(urllib.request.HTTPRedirectHandler):
-    """Refuses what would lead to an address that nobody has allowed."""
+    """Refuses redirections to addresses that are not allowed."""
 
     def redirect_request(self, *_args: Any, **_more: Any) -> None:
         """Return no other request."""

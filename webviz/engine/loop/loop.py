@@ -43,7 +43,7 @@ from webviz.sources.player import Player
 from webviz.sources.recording.memory import MemoryHistory
 
 PANEL_S = 0.2
-"""Interval of housekeeping (subscriptions, statuses, the panel) while somebody attends to what
+"""Interval of housekeeping (subscriptions, statuses, the panel) while a user attends to what
 changes all the time, and after commands."""
 CALM_S = 0.5
 """The same otherwise: it takes a fifth of a demo's processor time, five times a second."""

@@ -117,7 +117,7 @@ class Parts:
         return statuses
 
     def is_attended(self) -> bool:
-        """Return whether somebody looks at something that changes all the time."""
+        """Return whether a page shows something that changes all the time."""
         return any(
             self._boundary.attempt(part.name, True, part.is_attended)
             for part in self._overriding["is_attended"]

@@ -50,7 +50,7 @@ def picks(
         if (offer := cls.offered_for) is not None:
             endings.setdefault(offer.type, []).append((name, offer))
         for input, spec in inputs_of(cls).items():
-            # What comes beside another topic, such as updates of a map, is not shown by itself.
+            # What comes beside another topic, such as updates of a map, is not shown alone.
             if spec.is_offered and not spec.follows:
                 for type_ in spec.types:
                     takers.setdefault(type_, []).append((name, input, spec.offered_for))

@@ -181,7 +181,7 @@ class DisplaysPart(Part):
         return runner.statuses(context.offers, context.frames, dropped, context.is_watched())
 
     def _is_unseen(self, runner: Runner) -> bool:
-        """Return whether all that a display shows is a pane that nobody sees."""
+        """Return whether a display shows only a pane, and no page shows that."""
         scene, display = self.context.scene, runner.display
         if not (display.enabled and type(display).has_pane):
             return False
@@ -257,7 +257,7 @@ class DisplaysPart(Part):
     def add_display(
         self,
         type: str,
-        values: dict[str, Any] = {},  # noqa: B006 - nobody changes it
+        values: dict[str, Any] = {},  # noqa: B006 - never changed
         group: str = "",
         made: Callable[[str], None] = ignore,
     ) -> None:

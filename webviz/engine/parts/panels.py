@@ -226,7 +226,7 @@ class PanelsPart(Part):
     def add_panel(
         self,
         type: str,
-        values: dict[str, Any] = {},  # noqa: B006 - nobody changes it
+        values: dict[str, Any] = {},  # noqa: B006 - never changed
     ) -> str:
         """Add a panel of a plug-in behind the others, where its class says (`Panel.opens`).
 

@@ -262,7 +262,7 @@ class Part:
         return {}
 
     def is_attended(self) -> bool:
-        """Return whether somebody looks at something of it that changes all the time.
+        """Return whether a page shows something of it that changes all the time.
 
         The others are updated twice a second then, instead of five times.
         """

@@ -52,7 +52,7 @@ class TimePart(Part):
 
     Args:
         context: shared by all parts; its player is paused, or the inbox while topics are live.
-        autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
+        autoplay: play as soon as a browser is connected, so that the beginning is seen.
     """
 
     name = "Time"

@@ -1,4 +1,4 @@
-"""Rate of ROS time, so that a page can count by itself."""
+"""Rate of ROS time, so that a page counts between messages."""
 
 from __future__ import annotations
 

@@ -167,7 +167,7 @@ class Inputs:
         return duration_ns if isinstance(duration_ns, int) else 0
 
     def _is_replaced(self, input_subscription: InputSubscription, offer: Offer | None) -> bool:
-        """Return whether nobody publishes an input, but another one that serves as well."""
+        """Return whether an input has no publisher, but another one that serves as well has."""
         other = self.input_subscriptions.get(input_subscription.spec.unless)
         is_silent = not input_subscription.has_received and not (offer and offer.publishers)
         return is_silent and other is not None and other.has_received

@@ -42,8 +42,8 @@ def own_names(config: Config, boundary: ErrorBoundary) -> tuple[str, ...]:
 
     They are those of its tools, displays and panels, and those of installed displays and panels
     with default properties, since pages may add these. What is changed later adds no name, or
-    everybody who may change a property could publish anywhere. Nor does a pattern that somebody
-    has entered as a property: patterns are for the list `publish`, and for plug-ins.
+    pages that may change a property could publish anywhere. Nor does a pattern that is entered
+    as a property: patterns are for the list `publish`, and for plug-ins.
 
     Args:
         config: with which a viewer is started.

@@ -35,7 +35,7 @@ class DrawReport(msgspec.Struct, frozen=True):
     Args:
         statuses: by key.
         color_scale: range of values that colours stand for, None without one.
-        attribution: whom to credit for it, "" if nobody.
+        attribution: text of the credit, "" for none.
         offered: names for switches by property; see `Context.offered`.
     """
 
@@ -166,7 +166,7 @@ class Renderer:
         return boundary.attempt("inspect", None, display.inspect, hit, self._context(frames))
 
     def has(self, sample: Sample) -> bool:
-        """Return whether a sample is drawn, by itself or with others."""
+        """Return whether a sample is drawn, alone or with others."""
         looks = self._looks.get(sample.input)
         return looks is None or any(look and sample is look[0] for look in looks.values())
 

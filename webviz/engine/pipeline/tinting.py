@@ -112,7 +112,7 @@ class Tint(msgspec.Struct, frozen=True):
     opacity: float
 
     def __call__(self, node: Node) -> Node:
-        """Return a node with the other look; panes, which are no part of the scene, stay."""
+        """Return a node with the other look; panes are outside the scene, and stay."""
         match node:
             case Points() | Lines():
                 own = GREY if self.color and node.colors is None else node.colors

@@ -226,7 +226,7 @@ class TopicStatistics:
 def _is_match(reliability: str, durability: str, publisher: Publisher) -> bool:
     """Return whether DDS connects a request with an offer; "auto" follows the publisher.
 
-    A bridge subscribes by itself, with a QoS that matches.
+    A bridge subscribes with a QoS that matches.
     """
     if not publisher.is_qos_known:
         return True

@@ -274,7 +274,7 @@ class BagsFeature(PageFeature):
             group = entry.content
             if isinstance(group, DisplayGroup) and group.name == COMPARISON_NAME:
                 displays.remove(entry.id)
-        with contextlib.suppress(Error):  # somebody may have removed it
+        with contextlib.suppress(Error):  # it may have been removed
             panels.remove(COMPARISON_NAME)
 
     @command(Role.OWNER, is_noted=True)

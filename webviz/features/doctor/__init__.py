@@ -1,4 +1,4 @@
-"""The doctor: runs the checks in slices, once a second while somebody looks, and its panel."""
+"""The doctor: runs the checks in slices, once a second while a page shows it, and its panel."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ class DrivingFeature(PageFeature):
         self.context.controllers.equip(vehicles)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """Return the odometry of attended vehicles; none while nobody drives."""
+        """Return the odometry of attended vehicles; none while no page drives."""
         topics = self._topics().values()
         return self._subscriber.subscribe(
             {name: Subscription(ODOMETRY, topic) for name, topic in topics}

@@ -3,7 +3,7 @@
 const DEAD = 0.15; // of a stick that does not quite come back to its middle
 const [LEFT_X, LEFT_Y, RIGHT_X] = [0, 1, 2];
 
-/** The sticks: each counts once all have been in their middle, so that nothing drives off by itself. */
+/** The sticks: each counts once all have been in their middle, so that no robot drives off. */
 export function makeGamepad() {
   let isArmed = false;
   return {

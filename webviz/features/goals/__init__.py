@@ -135,7 +135,7 @@ class GoalsFeature(Feature):
         self._turn(goal)
 
     def keep_up(self, commanded: bool) -> None:
-        """Follow the goals, and forget those that nobody needs to see any more."""
+        """Follow the goals, and forget those that are no longer shown."""
         for goal in self._goals.values():
             self._turn(goal)
         self._goals = {id: goal for id, goal in self._goals.items() if self._is_worth_keeping(goal)}

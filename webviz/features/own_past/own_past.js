@@ -36,7 +36,7 @@ export function install() {
     isThere: () => canOpen() && isLive(),
     run: () => lookBackAlone(null),
   });
-  // Read all the time, so that they are there when somebody looks back.
+  // Read all the time, so that they are there for a look back.
   effect(() => [store("people").all().size, canOpen(), isLive()]);
   detour("Seek", ({ at_s }) => choose("Seek", { at_s }, at_s));
   detour("StepMessage", (fields) => choose("StepMessage", fields, null));

@@ -155,7 +155,7 @@ class People(PageFeature):
         url: Address,
         page_request: PageRequest,
     ) -> None:
-        """Make a link for somebody else; the answer has the `link` and its QR `code`.
+        """Make a link for another person; the answer has the `link` and its QR `code`.
 
         Args:
             name: of who gets the link.
@@ -180,7 +180,7 @@ class People(PageFeature):
 
     @command(Role.OWNER, PageCommand, is_noted=True)
     def dismiss(self, visitor: int, revokes: bool, page_request: PageRequest) -> None:
-        """End the visit of somebody else.
+        """End the visit of another person.
 
         Args:
             visitor: id of the browser whose visit ends.

@@ -1,4 +1,4 @@
-// A form that makes a link for somebody else, and shows it with its QR code.
+// A form that makes a link for another person, and shows it with its QR code.
 
 import { act } from "webviz/act.js";
 import { combobox } from "webviz/controls/combobox.js";

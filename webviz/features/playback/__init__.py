@@ -43,7 +43,7 @@ SECOND_NS = 1_000_000_000
 class DisplayEvents:
     """Notes when the worst level of a display rises, as far as the recording was shown.
 
-    Loading is not noted, as it ends by itself. A display is noted once per sentence and second of
+    Loading is not noted, since it ends. A display is noted once per sentence and second of
     the recording, and forgotten when it is removed. The oldest notes give way to new ones.
     """
 

@@ -1,4 +1,4 @@
-// Times of a recording that somebody types.
+// Typed times of a recording.
 
 const CLOCK = /^(?:(?:(\d+):)?(\d{1,2}):)?(\d{1,2}(?:\.\d*)?)$/;
 const DATE = /^\d{4}-\d{2}-\d{2}[ T]\d{2}:\d{2}/;

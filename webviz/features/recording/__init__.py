@@ -125,7 +125,7 @@ class RecordingFeature(Feature):
         return self.context.get(SettingsPart).settings.memory
 
     def keep_up(self, commanded: bool) -> None:
-        """Follow the settings, and notice that a recording has ended by itself."""
+        """Follow the settings, and notice that a recording has ended on its own."""
         if self._memory is not None:
             bounds, recent = self._bounds, self._memory.recent
             recent.seconds = bounds.seconds

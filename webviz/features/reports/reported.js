@@ -29,7 +29,7 @@ export function restore() {
  * @param {number} left
  */
 function attempt(targets, left) {
-  if (selection.all().size) return; // somebody was faster
+  if (selection.all().size) return; // the user was faster
   const candidates = things();
   const picks = targets.map((each) => pickOf(each, candidates)).filter((each) => each !== null);
   if (picks.length === targets.length || (left === 0 && picks.length))

@@ -27,7 +27,7 @@ from webviz.page.page_request import PageRequest
 MAX_ALLOWED = 100
 MAX_REQUESTS = 8
 REQUEST_S = 600.0
-"""Time after which a request is dropped that nobody has answered."""
+"""Time after which an unanswered request is dropped."""
 PAUSE_S = 5.0
 """Pause in seconds between two requests of one link."""
 DECLINED_S = 60.0
@@ -45,7 +45,7 @@ PAGES_ONLY = "Only an owner does this, in the page. Programs give `allow_publish
 
 
 class _Request(msgspec.Struct, frozen=True):
-    """A request of somebody who is not an owner.
+    """A request of a person who is not an owner.
 
     Args:
         name: what is to be allowed.

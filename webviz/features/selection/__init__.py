@@ -139,7 +139,7 @@ class _Selection(msgspec.Struct):
 
 
 class SelectionFeature(Feature):
-    """Finds what browsers pick, and asks its displays about it while somebody looks."""
+    """Finds what browsers pick, and asks its displays about it while a page shows it."""
 
     name = "Selection"
     module = "selection.js"

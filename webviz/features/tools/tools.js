@@ -87,7 +87,7 @@ function take(tool, result) {
  * @param {MadeGesture} result
  */
 function finish(tool, result) {
-  if (!active()?.stays) select(null); // as it is now: somebody may have changed it meanwhile
+  if (!active()?.stays) select(null); // as it is now: it may have changed meanwhile
   history.send(tool, result);
 }
 

@@ -1,4 +1,4 @@
-"""The last messages of topics that somebody looks into."""
+"""The last messages of topics that a page inspects."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class TopicsFeature(Feature):
             self._read.pop(topic, None)
 
     def is_attended(self) -> bool:
-        """Return whether somebody looks into a topic."""
+        """Return whether a page inspects a topic."""
         return bool(self._inspected())
 
     def state(self) -> Mapping[str, Any]:

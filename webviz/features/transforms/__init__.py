@@ -1,4 +1,4 @@
-"""The tree of transforms, and the transform between two frames, while somebody looks at them."""
+"""The tree of transforms, and the transform between two frames, while a page shows them."""
 
 from __future__ import annotations
 

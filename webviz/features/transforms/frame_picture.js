@@ -131,7 +131,7 @@ function searchIn(drawing, goTo) {
   return { field, isFound };
 }
 
-/** The part of the drawing that is seen: all of it until somebody moves or zooms. */
+/** The part of the drawing that is seen: all of it until the user moves or zooms. */
 class View {
   #canvas;
   #drawing;
@@ -153,7 +153,7 @@ class View {
     return this.#moved.value ?? this.#whole();
   }
 
-  /** The look that somebody has moved or zoomed to, null before; read in effects. */
+  /** The view that the user has moved or zoomed to, null before; read in effects. */
   moved() {
     return this.#moved.value;
   }

@@ -13,7 +13,8 @@ const JOINED_MS = 8000;
 const REFUSED =
   "webviz serves this page, but its websocket does not open. A proxy must forward the headers " +
   "Host, with its port, and Upgrade, and no browser extension may block websockets.";
-const SILENT = "webviz does not answer. Check that it is running; this page connects by itself.";
+const SILENT =
+  "webviz does not answer. Check that it is running; this page connects automatically.";
 
 /**
  * Says why, if the page has not joined the viewer in time, and takes it back once it has.
@@ -89,7 +90,7 @@ function lostBanner() {
     show(ms) {
       banner.textContent =
         `Connection to webviz lost. The picture is ${ageText(ms / 1000)} old. ` +
-        "Check that webviz is running; this page reconnects by itself.";
+        "Check that webviz is running; this page reconnects automatically.";
       if (banner.isConnected) return;
       document.body.append(banner);
       document.body.classList.add("wv-lost");

@@ -1,4 +1,4 @@
-// Stores of this page by itself, under viser's id of it, which is another one when it connects again.
+// Stores of this page alone, under viser's id of it, which is another one when it connects again.
 
 import * as channel from "webviz/channel.js";
 import { signal } from "webviz/signals.js";

@@ -185,7 +185,7 @@ export const positionOf = (name) => page().nodePoseData[name]?.position;
 
 export const requestRender = () => page().requestRender();
 
-/** Draws a frame now, as viser does by itself; whether that asked for another one. */
+/** Draws a frame now, as viser does on its own; whether that asked for another one. */
 export function advance() {
   const { requestRender } = page();
   let isAsked = false;

@@ -28,7 +28,7 @@ MAX_CURVES = 16
 MAX_AXES = 4
 """Axes at the right that one curve has for itself."""
 CLOSED_S = 1.5
-"""Time in seconds without messages and calls of `show` after which nobody has looked."""
+"""Time in seconds without messages and calls of `show` after which no page shows the plot."""
 
 
 class Plot(Panel):
@@ -77,7 +77,7 @@ class Plot(Panel):
         self.chooser = FieldChooser(numeric_paths, self._add)
         self.active_s = 0.0
         self.unfilled: set[str] = set()
-        """Topics of curves that began, or rested while nobody looked."""
+        """Topics of curves that began, or rested while no page showed them."""
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the chart, and what adds a curve."""

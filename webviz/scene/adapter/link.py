@@ -88,7 +88,7 @@ class Adapter:
         """Pictures in panes beside the scene."""
         self.deferred = DeferredMessages()
         """Messages that are slow to make, and are sent later."""
-        # What nobody watched was not drawn; its first browser does not wait for the next turn.
+        # Without a browser nothing was drawn; its first browser does not wait for the next turn.
         server.on_client_connect(lambda client: self.deferred.wake())
         self.label_budget = LabelBudget()
         self._socket = server._websock_server

@@ -85,7 +85,7 @@ class Access:
         self._file = _stamp(path), self._index(token_file.read(path) if asks and path else ())
 
     def limited(self, role: Role) -> Access:
-        """Return the same for a server where nobody may do more than a role."""
+        """Return the same for a server with a highest role."""
         limited = copy.copy(self)
         limited._everybody, limited._disk = Grant(role), DiskThreads(1)
         return limited
@@ -127,7 +127,7 @@ class Access:
             return
         try:
             tokens = token_file.read(self.path)
-        except Exception as error:  # whatever the cause, nobody keeps a right
+        except Exception as error:  # whatever the cause, all rights end
             tokens = ()
             log.error("No token of the file is valid: %s", error)
         self._file = stamp, self._index(tokens)

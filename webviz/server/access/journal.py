@@ -55,7 +55,7 @@ class Journal:
         return self._entries
 
     def note(self, visitor: Visitor | None, text: str) -> None:
-        """Add what somebody did, and log it in one line."""
+        """Add a person's action, and log it in one line."""
         name, role, address = "", "", ""
         if visitor is not None:
             name, role, address = visitor.name, visitor.role.label, visitor.address

@@ -20,7 +20,7 @@ class Limits(msgspec.Struct, frozen=True):
         messages_per_second: received from it on average; a page sends 50 while the user drags
             something.
         bytes_per_message: each further multiple of this size counts as one more message. Reading
-            JSON holds up whoever drives: what watchers send at most takes little of a processor.
+            JSON delays the driver: what watchers send at most takes little of a processor.
         max_characters: of one message; the longest of watchers are selections, of owners configs.
         max_values: of one message, counted by its commas and brackets before it is read: lists of
             lists take a hundred times as long as a text of that length. A selection of a thousand

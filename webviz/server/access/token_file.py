@@ -126,7 +126,7 @@ def _check(status: os.stat_result, path: Path) -> None:
         mode = stat.S_IMODE(status.st_mode)
         raise TokenError(
             f"Other users may read or write {path} (mode {mode:04o}). Run `chmod 600 {path}`, and "
-            "`webviz token rotate` for each token that somebody may have read."
+            "`webviz token rotate` for each token that may have been read."
         )
     if status.st_uid not in (os.geteuid(), 0):
         raise TokenError(f"{path} belongs to another user. Make your own file of tokens.")

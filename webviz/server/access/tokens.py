@@ -1,4 +1,4 @@
-"""Tokens: secrets that make whoever knows one a watcher, an operator or an owner."""
+"""Tokens: secrets that make their bearer a watcher, an operator or an owner."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from webviz.api.roles import Role
 
 
 class Visitor(msgspec.Struct, frozen=True):
-    """Somebody with a page of the viewer.
+    """A person with a page of the viewer.
 
     Args:
         name: of their token, "" if none is asked for.

@@ -40,7 +40,7 @@ class _Target(msgspec.Struct, frozen=True):
 
 
 class Tunnels:
-    """The servers behind one, by names that nobody guesses; for any thread."""
+    """The servers behind one, by names that cannot be guessed; for any thread."""
 
     def __init__(self) -> None:
         self._targets: dict[str, _Target] = {}
@@ -86,7 +86,7 @@ def hand_over(connection: Connection, context: RequestContext) -> Response:
         context: with the socket of the server.
 
     Returns:
-        A response that nobody receives, for websockets.
+        A response that is discarded, for websockets.
     """
     transport, connection.transport = connection.transport, _NoTransport()
     connection.loop.call_soon(connection.connection_lost, None)

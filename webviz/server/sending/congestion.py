@@ -50,7 +50,7 @@ class SentMarker(msgspec.Struct, frozen=True, eq=False):
         in_flight: bytes on their way then, with these.
         delivered: bytes that had arrived by then.
         acknowledged: when the last pong before came.
-        is_limited: whether somebody had to wait since the ping before.
+        is_limited: whether anything had to wait since the ping before.
     """
 
     size: int
@@ -200,7 +200,7 @@ class CongestionControl:
             and marker.in_flight > self._window / 4
             and queue_s < QUEUE_S / 2
         ):
-            rate = max(rate, known_rate * 1.25)  # nobody waits: the link may have become faster
+            rate = max(rate, known_rate * 1.25)  # nothing waits: the link may have become faster
         if marker.is_limited or rate > known_rate:
             while self._rates and self._rates[0][0] < self._acknowledged - MEMORY_S:
                 self._rates.popleft()

@@ -205,7 +205,7 @@ class Running(PictureControls):
         self.is_embeddable = bool(embedders)
         """True if some pages may embed this one."""
         self._closing.add("The server of the page", server.stop)
-        make_missing(self.access)  # until then, nobody can connect
+        make_missing(self.access)  # until then, no page can connect
         self._host, self.port = host, server.get_port()
         self._scheme = "http" if tls is None else "https"
         self._scene = ViserScene(server)
@@ -343,7 +343,7 @@ class Running(PictureControls):
         self._scene.attended_until_s = max(until_s, self._scene.attended_until_s)
 
     def note(self, visitor: Visitor, text: str) -> None:
-        """Add what a program did for somebody to the journal."""
+        """Add a program's action for a person to the journal."""
         self._pages.journal.note(visitor, text)
 
     def doctor(self) -> list[Finding]:

@@ -1,4 +1,4 @@
-"""Links with tokens, for the terminal only: whoever reads them may use the viewer."""
+"""Links with tokens, for the terminal only: they grant access to the viewer."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def mcp(
 
             def talk() -> None:
                 serve_stdio(tools, AgentCaller("agent", Role[role.upper()]))
-                viewer.stop()  # whoever started this has ended
+                viewer.stop()  # the program that started this has ended
 
             threading.Thread(target=talk, name="webviz-mcp", daemon=True).start()
 

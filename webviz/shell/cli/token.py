@@ -21,8 +21,8 @@ from webviz.shell.cli.terminal import say, say_painted, warn
 
 EXAMPLES = """\
 Examples:
-  webviz token make Ada                    a link for somebody who watches
-  webviz token make Ada --role operator    for somebody who may drive
+  webviz token make Ada                    a link for a person who watches
+  webviz token make Ada --role operator    for a person who may drive
   webviz token make guests --days 1        which ends tomorrow
   webviz token list --links                all tokens with their links
   webviz token rotate Ada                  a new link instead of the old one
@@ -42,7 +42,7 @@ def list_tokens(*, links: Flag = False, url: Url = "") -> None:
     """List names, roles and expiry.
 
     Args:
-        links: Show the links, too. Whoever sees them may use the viewer.
+        links: Show the links, too. They grant access to the viewer.
         url: Address of the viewer (default: those of the viewers that run and ask for tokens).
     """
     tokens = token_file.read(token_file.standard_path())

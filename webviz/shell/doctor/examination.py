@@ -72,7 +72,7 @@ Progress = Callable[[str, float], object]
 
 
 class Examination:
-    """Findings of a frame loop that nobody looks at.
+    """Findings of a frame loop without a page.
 
     Args:
         config: the displays to examine.
@@ -113,7 +113,7 @@ class Examination:
     def watch(self, until_s: float, is_given: bool) -> DoctorReport:
         """Examine live topics, and end the threads.
 
-        On a busy machine a turn may take seconds, for which nobody waits then.
+        On a busy machine a turn may take seconds, for which nothing waits then.
 
         Args:
             until_s: monotonic time in seconds at which it ends.

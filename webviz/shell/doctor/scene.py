@@ -10,7 +10,7 @@ from webviz.engine.pipeline.scene import Cameras, NoCameras
 
 
 class NoScene:
-    """A scene that somebody seems to watch, so that displays draw."""
+    """A scene that claims a browser, so that displays draw."""
 
     cameras: Cameras = NoCameras()
     browsers: Browsers = NoBrowsers()

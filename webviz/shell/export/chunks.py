@@ -1,4 +1,4 @@
-"""Parts of a recorded run: each can be shown by itself, and is compressed."""
+"""Parts of a recorded run: each can be shown alone, and is compressed."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ class RecordedCameras(ViserCameras):
     """Frames whose poses are recorded."""
 
     def target_frames(self) -> set[str]:
-        """Return the frames that somebody may choose, and that of the view to start with."""
+        """Return the frames that a user may choose, and that of the view to start with."""
         return super().target_frames().union(self.followed)
 
 

@@ -29,7 +29,7 @@ SHARED = (
 )
 """Stores that pages watch all the time."""
 SLOW = ("frame_tree", "topics", "traffic", "transforms")
-"""Stores whose values change all the time, although nobody reads them so quickly."""
+"""Stores whose values change faster than anyone reads them."""
 VALUES = "values:"
 """Prefix of the id of a display: details of what it draws. Viewers send those of a selection."""
 OF_EACH_DISPLAY = ("properties", "rate", "statuses")

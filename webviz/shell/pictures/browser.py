@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 VARIABLE = "WEBVIZ_BROWSER"
 """Environment variable with the path of the browser to use."""
 NAMES = (
-    # Made for this: others draw the window of a desktop around each page, though nobody sees it.
+    # Made for this: others draw the window of a desktop around each page, though it is not seen.
     "chromium-headless-shell",
     "chromium",
     "chromium-browser",

@@ -60,7 +60,7 @@ class HeadlessRenderer:
             self.server = open_server(port=0)
             stack.callback(self.server.stop)
             self.scene = RenderedScene(self.server)
-            self.scene.browsers = NoBrowsers()  # it is nobody's, and needs no graphics card
+            self.scene.browsers = NoBrowsers()  # it has no user, and needs no graphics card
             self.scene.set_background(background)
             self.page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
             stack.callback(self.page.close)

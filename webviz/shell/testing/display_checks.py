@@ -291,7 +291,7 @@ class DisplayChecks:
                 assert _picture(again) != former, f"{value} shows as {before} does"
                 continue
             _set(bench, changed.path, before)
-            assert _picture(bench) == former, "A display that changes by itself proves nothing."
+            assert _picture(bench) == former, "A display that changes unprompted proves nothing."
             _set(bench, changed.path, value)
             assert _picture(bench) != former, f"{value} shows as {before} does"
             _set(bench, changed.path, before)

@@ -33,7 +33,7 @@ class RecordingScene:
     upserts: int = 0
     max_points: int = POINTS_HELD
     unseen: set[str] = field(default_factory=set)
-    """Ids of displays whose panes nobody sees."""
+    """Ids of displays whose panes are hidden."""
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
     cameras: Cameras = field(default_factory=NoCameras)

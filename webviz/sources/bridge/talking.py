@@ -38,7 +38,7 @@ def open_session(chosen: str | None, host: Host) -> BridgeSession:
 
 class _Connect(connect):
     def process_redirect(self, exc: Exception) -> Exception:
-        """Follow no redirection: headers with tokens are for the address that somebody gave."""
+        """Follow no redirection: headers with tokens are for the given address."""
         return exc
 
 

@@ -140,7 +140,7 @@ ALONE = (
 class FleetSource:
     """Robots behind bridges, each in its namespace, beside other live topics.
 
-    Each has a connection that opens again by itself, and a clock of its own: stamps of its messages
+    Each has a connection that reopens automatically, and a clock of its own: stamps of its messages
     are moved to the clock of this machine. If any source has a simulated clock, ROS time is that of
     the first.
 

@@ -14,7 +14,7 @@ from webviz.sources.source import Subscription
 
 CLOCK = "rosgraph_msgs/msg/Clock"
 FOLLOWED = (TF, CLOCK)
-"""Types of messages that are there for others; nobody steps through them."""
+"""Types of messages that serve others, and are no steps."""
 
 
 class HistoryChannel(NamedTuple):

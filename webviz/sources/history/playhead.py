@@ -184,7 +184,7 @@ class Playhead:
         return None if neighbour is None else neighbour.stamp_ns
 
     def _subscribed(self) -> Sequence[HistoryChannel]:
-        """Return the channels of subscriptions, without a clock that is none."""
+        """Return the channels of subscriptions, without /clock unless it is one of them."""
         channels = self.history.channels(self._subscriptions)
         return [channel for channel in channels if channel.topic in self._subscriptions]
 

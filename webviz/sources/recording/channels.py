@@ -39,7 +39,7 @@ class Channels:
         return len(self._channels)
 
     def find(self, topic: str, types: MessageTypes | None = None) -> RecordedChannel | None:
-        """Return the channel of a topic, None if nobody knows the type of its messages yet.
+        """Return the channel of a topic, None while the type of its messages is unknown.
 
         Args:
             topic: full name.

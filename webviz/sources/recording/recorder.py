@@ -29,7 +29,7 @@ class Recorder:
         folder: written to by the thread of the recorder alone.
         channels: of the topics.
         past: what the recording begins with.
-        max_bytes: of the files, at which it ends by itself; 0 for no limit.
+        max_bytes: of the files, at which it ends; 0 for no limit.
     """
 
     def __init__(
@@ -53,9 +53,9 @@ class Recorder:
         self._is_ending = False
         self._began_s = time.monotonic()
         self.dropped = 0
-        """Messages that the disk was too slow for, or whose type nobody knew."""
+        """Messages that the disk was too slow for, or whose type was unknown."""
         self.problem = ""
-        """Cause of an end by itself, in a sentence; "" while there is none."""
+        """Cause of an unrequested end, in a sentence; "" while there is none."""
         self._thread = threading.Thread(target=self._run, name="webviz-recorder", daemon=True)
         self._thread.start()
 

@@ -165,7 +165,7 @@ def _is_open(future: Future[Any]) -> bool:
 
 
 def _succeed(future: Future[bytes], data: bytes) -> None:
-    """Answer, unless somebody has."""
+    """Answer, unless that is done."""
     if _is_open(future) and future.set_running_or_notify_cancel():
         future.set_result(data)
 

@@ -44,7 +44,7 @@ class GraphSnapshot(NamedTuple):
 
     @property
     def is_empty(self) -> bool:
-        """Return whether it has nobody but this viewer."""
+        """Return whether it has no node but this viewer."""
         return not self.transports
 
     @property

@@ -204,7 +204,7 @@ class ZenohLink:
             self._ask()
 
     def _ask(self) -> None:
-        """Ask the router for something that nobody has; its answer is the round trip."""
+        """Ask the router for a key that no node has; its answer is the round trip."""
         began_s = time.monotonic()
         mark = object()
         self._probe = mark, began_s

@@ -79,7 +79,7 @@ class ZenohPublishers:
         return len(_readers(advertisement, graph))
 
     def _find(self, advertisement: Advertisement, graph: GraphSnapshot) -> list[ZenohPublisher]:
-        """Return the publishers for all versions of the type that somebody reads."""
+        """Return the publishers for all versions of the type that have a reader."""
         readers = _readers(advertisement, graph)
         hashes = {each.hash for each in readers if not each.is_bridged}
         bridged = {each.key for each in readers if each.is_bridged}
@@ -90,7 +90,7 @@ class ZenohPublishers:
         return publishers + [self._publisher(advertisement, hash) for hash in sorted(hashes)]
 
     def _hash(self, advertisement: Advertisement, graph: GraphSnapshot) -> str:
-        """Return the version of a type that nobody reads yet."""
+        """Return the version of a type without a reader yet."""
         published = graph.publishers.get(advertisement.topic, ())
         for each in published:
             if each.type == advertisement.type and each.hash:

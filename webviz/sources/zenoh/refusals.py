@@ -65,7 +65,7 @@ def _silent(endpoints: Sequence[str], error: str) -> Problem:
             f"{place} listens, but no session over TLS was opened: {_line(error)}.",
             f"Name {AUTHORITY}.",
         )
-    if endpoints[0].startswith("quic/"):  # over UDP, nobody knows whether it listens
+    if endpoints[0].startswith("quic/"):  # over UDP, a listener cannot be told
         return Problem(
             f"No session over QUIC was opened with {place}: {_line(error)}.",
             f"Check that a router listens for QUIC on this UDP port, and name {AUTHORITY}.",

@@ -124,7 +124,7 @@ class ZenohSource:
         return self._bridges
 
     def now_ns(self) -> int:
-        """ROS time: that of /clock if somebody publishes it, else of this machine."""
+        """ROS time: that of /clock if it is published, else of this machine."""
         return time.time_ns() if self._clock_ns is None else self._clock_ns
 
     def clock_messages(self) -> int | None:

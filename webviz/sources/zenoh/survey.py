@@ -1,4 +1,4 @@
-"""A look at the other ROS domains of a network in which the own one has nobody."""
+"""A survey of a network's other ROS domains, for one whose own domain is empty."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class DomainSurvey:
 
         Args:
             session: that is open.
-            is_empty: whether the own domain has nobody.
+            is_empty: whether the own domain has no node.
         """
         now_s = time.monotonic()
         if not is_empty:

@@ -50,7 +50,7 @@ class Combobox {
   #isInvalid = signal(false);
   /** @type {Signal<string | Mixed>} */
   #current;
-  /** Content of the field while nobody types. */
+  /** Content of the field while the user is not typing. */
   #content = signal({ text: "", note: "", level: /** @type {string | undefined} */ (undefined) });
   #isFree;
   #options;

@@ -52,7 +52,7 @@ export function entry(field, options) {
 }
 
 /**
- * A text that somebody enters, and the value that it stands for.
+ * A text that the user enters, and the value that it stands for.
  *
  * @template T
  */

@@ -10,7 +10,7 @@ import { store } from "webviz/stores.js";
 const LOOPBACK = /^(localhost|127(\.\d+){3}|\[::1\])$/;
 
 /**
- * `isRefused()`: whether it may not be used as long as nobody allows it; to be read in effects.
+ * `isRefused()`: whether it may not be used until an owner allows it; to be read in effects.
  *
  * @typedef {{element: HTMLElement, isRefused: () => boolean}} Permission
  */

@@ -17,7 +17,7 @@ const NO_ANSWER = { level: "error", text: "Not changed: the viewer does not answ
  * `value()` is read in an effect: what the viewer has, undefined before that is known. `show(value)`
  * makes the control show it. `change(value)` sends another to the viewer; it may return a promise of
  * `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well. A refused value stays for correction; once the control has lost the focus (`isFocused()`),
- * until somebody else changes the value.
+ * until another page changes the value.
  *
  * @template T
  * @param {{

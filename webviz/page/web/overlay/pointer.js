@@ -23,7 +23,7 @@ const LOCKED = "Camera locked · Unlock it in the view's settings";
 const LOOKS = "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at";
 const TURNS = "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: ";
 
-/** Hints go once somebody has moved the camera that often. */
+/** Hints go once the user has moved the camera that often. */
 const LEARNED = 5;
 
 function hintOf() {

@@ -10,7 +10,7 @@ import * as viser from "webviz/viser_page.js";
 
 const EVERY_MS = 1000;
 const PING_TICKS = 2;
-const IDLE_FPS = 1; // viser's page draws a frame a second by itself
+const IDLE_FPS = 1; // viser's page draws a frame a second anyway
 
 const HINT = "Frames drawn per second, and the round trip to the server";
 

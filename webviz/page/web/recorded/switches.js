@@ -92,10 +92,10 @@ export function switches() {
 }
 
 /**
- * A row as it is shown once somebody has switched its display.
+ * A row as it is shown once the user has switched its display.
  *
  * @param {any} row
- * @param {boolean | undefined} isWanted undefined if nobody has
+ * @param {boolean | undefined} isWanted undefined if the user has not
  */
 const switched = (row, isWanted) =>
   isWanted === undefined ? row : { ...row, enabled: row.enabled && isWanted };

@@ -12,7 +12,7 @@ import { effect, root, signal } from "webviz/signals.js";
 const PLACES = { side: "In the side bar", below: "Below the scene" };
 
 /**
- * Lets somebody choose a type of panels; resolves with it, null for none.
+ * Lets the user choose a type of panels; resolves with it, null for none.
  *
  * @param {PanelType[]} types
  * @returns {Promise<PanelType | null>}

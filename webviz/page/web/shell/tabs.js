@@ -147,7 +147,7 @@ function tabList({ tabs, open, choice }) {
 
 /**
  * Keeps the open tab in sight, and shows `more` while there are tabs out of sight; returns what does
- * so again, after somebody has moved the list.
+ * so again, after the user has moved the list.
  *
  * @param {HTMLElement} list
  * @param {HTMLElement} more

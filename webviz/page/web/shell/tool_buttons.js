@@ -19,7 +19,7 @@ import { keyText } from "webviz/keys.js";
 const USES = "tool-uses";
 const LEARNED = 3;
 
-/** True until somebody has chosen tools here: then icons are enough. */
+/** True until the user has chosen tools here: then icons are enough. */
 export const isNew = () => recall(USES, 0) < LEARNED;
 /** All tools in the order of the toolbar; read in effects. */
 export const all = registry.all;

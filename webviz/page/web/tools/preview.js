@@ -157,7 +157,7 @@ function turn(current) {
 }
 
 /**
- * Ends a gesture; its preview stays until it is sent, if somebody `asks`.
+ * Ends a gesture; its preview stays until it is sent, if the tool `asks`.
  *
  * @param {PointerEvent} event
  * @param {boolean} asks

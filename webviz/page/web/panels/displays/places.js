@@ -79,7 +79,7 @@ export function step(model, ids, way) {
 export function moves(model, ids, { group, before }) {
   const moved = topmost(model, ids);
   const around = group ? model.byId.get(group)?.children : model.top;
-  if (!around) return []; // somebody removed the group meanwhile
+  if (!around) return []; // the group was removed meanwhile
   const at = around.indexOf(moved[0]);
   const next = around[at + moved.length]?.id ?? "";
   const isThere = at >= 0 && next === before && moved.every((item, i) => around[at + i] === item);

@@ -181,7 +181,7 @@ export class DisplayTree {
     this.refresh();
     this.focus();
     const row = this.list.row(id)?.row;
-    if (!row) return; // somebody removed it meanwhile
+    if (!row) return; // it was removed meanwhile
     const { left, bottom } = row.getBoundingClientRect();
     actions.openActions(x ?? left + 40, y ?? bottom, {
       model: this.#model,
