@@ -16,7 +16,7 @@ from webviz.commands import Reset, SetFixedFrame
 from webviz.engine.pipeline import synchronizer
 
 
-class _Two(Display):
+class TwoInputs(Display):
     left: Annotated[Topic, Input(POSE)] = Topic("/left")
     right: Annotated[Topic, Input(POSE)] = Topic("/right")
     count: int = 1
@@ -29,14 +29,14 @@ def mark(sample: Sample, ctx: Context, key: str) -> None:
     ctx.points(key, [[sample.message.pose.position.x, 0, 0]], (255, 0, 0), 0.1)
 
 
-class Two(_Two):
+class DotPerInput(TwoInputs):
     """A dot for each of two poses."""
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         mark(sample, ctx, sample.input)
 
 
-class TwoAtOnce(_Two):
+class DotsAtOnce(TwoInputs):
     """The same dots, drawn by one call."""
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -53,9 +53,9 @@ def dots(bench: Bench) -> list[tuple[str, float]]:
     )
 
 
-@pytest.mark.parametrize("display", [Two, TwoAtOnce])
+@pytest.mark.parametrize("display", [DotPerInput, DotsAtOnce])
 def test_each_of_two_inputs_has_its_newest_message_drawn(
-    bench: Benches, display: type[_Two]
+    bench: Benches, display: type[TwoInputs]
 ) -> None:
     b = bench(display(name="Two"))
     b.transform("map", "base", T, static=True)
@@ -69,7 +69,7 @@ def test_each_of_two_inputs_has_its_newest_message_drawn(
     assert dots(b) == [("left", 2.0), ("right", 30.0)]
 
 
-class Graded(_Two):
+class PoseReporter(TwoInputs):
     """Reports what it thinks of each pose."""
 
     def draw(self, sample: Sample, ctx: Context) -> None:
@@ -80,7 +80,7 @@ class Graded(_Two):
 
 @pytest.mark.parametrize("culprit", ["left", "right"])
 def test_a_warning_about_one_input_is_not_hidden_by_the_other(bench: Benches, culprit: str) -> None:
-    b = bench(Graded(name="Graded"))
+    b = bench(PoseReporter(name="Poses"))
     b.transform("map", "base", T, static=True)
     for name in ("left", "right"):
         b.pose(f"/{name}", "base", T, -1.0 if name == culprit else 1.0)
@@ -88,7 +88,7 @@ def test_a_warning_about_one_input_is_not_hidden_by_the_other(bench: Benches, cu
     assert b.statuses()["Pose"] == ("WARN", f"{culprit} is at -1")
 
 
-class Pair(_Two):
+class Pair(TwoInputs):
     """A line between two poses of one stamp."""
 
     sync = Sync("left", "right")
@@ -214,8 +214,8 @@ def test_a_reset_drops_unmatched_messages(bench: Benches) -> None:
     assert lines(b) == []
 
 
-class WithHint(_Two):
-    """A line to a hint, if anybody gives one."""
+class DotsWithHint(TwoInputs):
+    """A dot for each pose, named with its hint if there is one."""
 
     hint: Annotated[Topic, Input(POSE, optional=True)] = Topic("/hint")
     sync = Sync("left", "hint")
@@ -225,7 +225,7 @@ class WithHint(_Two):
 
 
 def test_an_optional_input_joins_a_sync_once_it_has_a_message(bench: Benches) -> None:
-    b = bench(WithHint(name="WithHint"))
+    b = bench(DotsWithHint(name="Hint"))
     b.transform("map", "base", T, static=True)
     b.pose("/left", "base", T, 1.0)
     b.pose("/right", "base", T, 3.0)
@@ -237,7 +237,7 @@ def test_an_optional_input_joins_a_sync_once_it_has_a_message(bench: Benches) ->
     assert sorted(key for key, *_ in b.scene.visible()) == ["left hint", "right"]
 
 
-class Apart(_Two):
+class LineOfPoses(TwoInputs):
     """A line between two poses, each in its own frame."""
 
     sync = Sync("left", "right")
@@ -249,7 +249,7 @@ class Apart(_Two):
 
 
 def test_all_of_a_set_moves_into_a_new_fixed_frame(bench: Benches) -> None:
-    b = bench(Apart(name="Apart"))
+    b = bench(LineOfPoses(name="Line"))
     b.transform("map", "a", T, 1.0, static=True)
     b.transform("map", "b", T, 5.0, static=True)
     b.pose("/left", "a", T)
@@ -261,7 +261,7 @@ def test_all_of_a_set_moves_into_a_new_fixed_frame(bench: Benches) -> None:
 
 
 def test_a_sync_of_an_unknown_input_is_refused_with_its_name() -> None:
-    class Wrong(_Two):
+    class Wrong(TwoInputs):
         sync = Sync("left", "count")
 
     with pytest.raises(TypeError, match=r"Wrong.sync: 'count' is not an input of the display"):

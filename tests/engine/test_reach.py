@@ -35,7 +35,7 @@ class Marks(Display):
         ctx.follow(self.frame, offset=offset).points("follower", [[0, 0, 0]], (0, 0, 0), 0.1)
 
 
-class Following(NoCameras):
+class FollowingCamera(NoCameras):
     """A camera that follows a frame."""
 
     def __init__(self, frame: str) -> None:
@@ -98,7 +98,7 @@ def test_an_offset_out_of_reach_is_the_displays_fault(bench: Benches) -> None:
 
 
 def test_a_view_does_not_follow_a_frame_out_of_reach(bench: Benches) -> None:
-    b = bench(cameras=Following("b"))
+    b = bench(cameras=FollowingCamera("b"))
     b.transform("map", "a", T, 1e308)
     b.transform("a", "b", T, 1e308)
     b.turn()

@@ -230,7 +230,7 @@ def test_inputs_can_fold_into_one(bench: Benches) -> None:
     assert dots(b) == [13.0]
 
 
-class Choosy(TwoTopicSum):
+class PositiveSum(TwoTopicSum):
     """The sum of the numbers that are positive; fails on negative ones."""
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
@@ -241,7 +241,7 @@ class Choosy(TwoTopicSum):
 
 
 def test_messages_that_fold_into_nothing_or_fail_keep_the_drawing(bench: Benches) -> None:
-    b = bench(Choosy(name="Choosy"), strict=False)
+    b = bench(PositiveSum(name="Sum"), strict=False)
     b.transform("map", "base", T, static=True)
     for x in (1.0, 0.0, -1.0):
         b.pose("/pose", "base", T, x)

@@ -71,7 +71,7 @@ class TwoBrowsers:
         self.images.append((name, browser))
 
 
-class Looking:
+class TwoBrowserViewer:
     """A viewer with two browsers."""
 
     def __init__(self, b: Bench, cameras: TwoBrowsers) -> None:
@@ -93,15 +93,15 @@ class Looking:
 
 
 @pytest.fixture
-def looking(bench: Benches) -> Looking:
+def looking(bench: Benches) -> TwoBrowserViewer:
     cameras = TwoBrowsers()
     b = bench(Axes(name="A", length=2.0, reference_frame="map"), cameras=cameras)
     b.transform("map", "base", 0, x=4.0, static=True)
     b.turn()
-    return Looking(b, cameras)
+    return TwoBrowserViewer(b, cameras)
 
 
-def test_a_view_is_shown_in_one_browser_or_in_all(looking: Looking) -> None:
+def test_a_view_is_shown_in_one_browser_or_in_all(looking: TwoBrowserViewer) -> None:
     looking.do(ShowView(TopDownOrtho(scale=50.0), BOB))
     assert looking.cameras.by_browser == {ALICE: Orbit(), BOB: TopDownOrtho(scale=50.0)}
     state = looking.do(ShowView(XYOrbit()))
@@ -126,7 +126,7 @@ ELSEWHERE = FPS(pitch=0.5)
     ids=lambda command: type(command).__name__,
 )
 def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_another(
-    looking: Looking, command: Any
+    looking: TwoBrowserViewer, command: Any
 ) -> None:
     cameras = looking.cameras
 
@@ -150,7 +150,7 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
     assert acted(named, Sender(BOB)) == acted(named, PROGRAM) == alone
 
 
-def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:
+def test_a_property_of_a_view_is_changed_and_checked(looking: TwoBrowserViewer) -> None:
     looking.do(ChangeView("distance", 3.0, ALICE))
     assert looking.cameras.by_browser[ALICE] == Orbit(distance=3.0)
     assert "distance: expected > 0" in looking.refusal(ChangeView("distance", -3.0, ALICE))
@@ -158,7 +158,7 @@ def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:
     assert "`TopDownOrtho`" in looking.refusal(ChangeView("type", "TopDownOrto", ALICE))
 
 
-def test_a_view_keeps_its_focal_point_when_its_type_changes(looking: Looking) -> None:
+def test_a_view_keeps_its_focal_point_when_its_type_changes(looking: TwoBrowserViewer) -> None:
     looking.do(ShowView(Orbit(focal_point=(3.0, 2.0, 0.0)), ALICE))
     looking.do(ChangeView("type", "TopDownOrtho", ALICE))
     view = looking.cameras.by_browser[ALICE]
@@ -166,7 +166,7 @@ def test_a_view_keeps_its_focal_point_when_its_type_changes(looking: Looking) ->
     assert (view.x, view.y) == pytest.approx((3.0, 2.0), abs=1e-5)
 
 
-def test_a_view_that_begins_to_follow_a_frame_stays_where_it_is(looking: Looking) -> None:
+def test_a_view_that_begins_to_follow_a_frame_stays_where_it_is(looking: TwoBrowserViewer) -> None:
     looking.do(ChangeView("target_frame", "base", ALICE))
     view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, Orbit)
@@ -175,7 +175,9 @@ def test_a_view_that_begins_to_follow_a_frame_stays_where_it_is(looking: Looking
     assert looking.cameras.by_browser[ALICE] == Orbit()
 
 
-def test_the_frames_that_views_follow_are_in_the_scene_while_they_do(looking: Looking) -> None:
+def test_the_frames_that_views_follow_are_in_the_scene_while_they_do(
+    looking: TwoBrowserViewer,
+) -> None:
     scene = looking.bench.scene
     looking.do(ShowView(Orbit(target_frame="base"), ALICE))
     assert scene.poses[target_group("base")].position == (4.0, 0.0, 0.0)
@@ -183,7 +185,7 @@ def test_the_frames_that_views_follow_are_in_the_scene_while_they_do(looking: Lo
     assert target_group("base") not in scene.poses
 
 
-def test_a_missing_target_frame_is_reported_until_it_arrives(looking: Looking) -> None:
+def test_a_missing_target_frame_is_reported_until_it_arrives(looking: TwoBrowserViewer) -> None:
     state = looking.do(ShowView(Orbit(target_frame="arm"), ALICE))
     status = state.statuses["Target Frame"]
     assert status.level is Level.WARN
@@ -193,13 +195,13 @@ def test_a_missing_target_frame_is_reported_until_it_arrives(looking: Looking) -
     assert "Target Frame" not in state.statuses
 
 
-def test_reset_goes_back_to_where_a_view_of_the_type_begins(looking: Looking) -> None:
+def test_reset_goes_back_to_where_a_view_of_the_type_begins(looking: TwoBrowserViewer) -> None:
     looking.do(ShowView(ThirdPersonFollower(distance=3.0, target_frame="base"), ALICE))
     looking.do(ResetView(ALICE))
     assert looking.cameras.by_browser[ALICE] == ThirdPersonFollower(target_frame="base")
 
 
-def test_a_display_comes_into_the_middle(looking: Looking) -> None:
+def test_a_display_comes_into_the_middle(looking: TwoBrowserViewer) -> None:
     looking.do(FocusDisplay("display1", ALICE))
     view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, Orbit)
@@ -214,7 +216,7 @@ def test_a_display_comes_into_the_middle(looking: Looking) -> None:
     assert view.focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
 
 
-def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
+def test_views_are_saved_shown_renamed_and_removed(looking: TwoBrowserViewer) -> None:
     looking.do(ShowView(TopDownOrtho(scale=50.0), ALICE))
     state = looking.do(SaveView("Plan", ALICE))
     assert state.settings.views == {"Plan": TopDownOrtho(scale=50.0)}
@@ -232,7 +234,7 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     assert "name is empty" in looking.refusal(SaveView("", ALICE))
 
 
-def test_the_chosen_default_view_is_saved_in_the_config(looking: Looking) -> None:
+def test_the_chosen_default_view_is_saved_in_the_config(looking: TwoBrowserViewer) -> None:
     looking.do(ShowView(TopDownOrtho(x=3.0), ALICE))
     looking.do(StartWithView(ALICE))
     assert looking.cameras.start == TopDownOrtho(x=3.0)
@@ -242,7 +244,7 @@ def test_the_chosen_default_view_is_saved_in_the_config(looking: Looking) -> Non
     assert "type: TopDownOrtho" in text
 
 
-def test_opening_a_config_shows_its_view(looking: Looking) -> None:
+def test_opening_a_config_shows_its_view(looking: TwoBrowserViewer) -> None:
     looking.do(Load("view: {distance: 4}\nviews: {Near: {distance: 1}}\n", "x.yaml"))
     assert looking.cameras.start == Orbit(distance=4.0)
     assert set(looking.cameras.by_browser.values()) == {Orbit(distance=4.0)}
@@ -250,20 +252,20 @@ def test_opening_a_config_shows_its_view(looking: Looking) -> None:
     assert set(looking.cameras.by_browser.values()) == {Orbit(distance=1.0)}
 
 
-def test_a_picture_is_requested_from_one_browser(looking: Looking) -> None:
+def test_a_picture_is_requested_from_one_browser(looking: TwoBrowserViewer) -> None:
     looking.do(SaveImage(BOB, "robot.png"))
     assert looking.cameras.images == [("robot.png", BOB)]
 
 
 def test_without_browsers_there_is_nothing_to_change(bench: Benches) -> None:
-    looking = Looking(bench(cameras=(cameras := TwoBrowsers())), cameras)
+    looking = TwoBrowserViewer(bench(cameras=(cameras := TwoBrowsers())), cameras)
     cameras.by_browser.clear()
     assert "No browser is connected" in looking.refusal(ResetView())
     assert "No browser is connected" in looking.refusal(SaveView("A"))
 
 
 def test_a_frame_is_looked_at_where_it_is_and_one_without_a_pose_is_refused(
-    looking: Looking,
+    looking: TwoBrowserViewer,
 ) -> None:
     looking.do(FocusFrame("base", ALICE))
     view = looking.cameras.by_browser[ALICE]

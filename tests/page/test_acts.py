@@ -38,7 +38,7 @@ def test_what_does_not_fit_is_refused(name: str, arguments: dict[str, Any], reas
         command_of(name, arguments)
 
 
-class Unread(list[None]):
+class UnreadableList(list[None]):
     """An unreadable list."""
 
     def __iter__(self) -> Iterator[None]:
@@ -48,7 +48,7 @@ class Unread(list[None]):
 @pytest.mark.parametrize(
     ("value", "reason"),
     [
-        (Unread([None] * 50_001), "at most 50000 values"),
+        (UnreadableList([None] * 50_001), "at most 50000 values"),
         (dict.fromkeys(map(str, range(25_001))), "at most 50000 values"),
         (100_001 * "x", "at most 100000 characters"),
         (functools.reduce(lambda value, _: [value], range(100), 0), "nested levels"),

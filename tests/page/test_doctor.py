@@ -53,7 +53,7 @@ def severe(page: Page) -> Locator:
     return page.locator(".wv-doctor > .wv-findings > .wv-finding")
 
 
-class Reported(Check):
+class ReportingCheck(Check):
     """The check of these tests: it finds what they say."""
 
     id = "DATA998"
@@ -63,7 +63,7 @@ class Reported(Check):
         return self.found_now
 
 
-class Quiet(Check):
+class QuietCheck(Check):
     """A check that finds nothing."""
 
     id = "DATA999"
@@ -77,7 +77,7 @@ def viewer(
     page_server: PageServer, viewer_tab: ViewerTab, monkeypatch: pytest.MonkeyPatch
 ) -> PageBench:
     """A viewer in the second hour of a simulation, in which the doctor examines nothing else."""
-    checks = Reported, *[Quiet] * 1000  # one per turn, until a test examines
+    checks = ReportingCheck, *[QuietCheck] * 1000  # one per turn, until a test examines
     monkeypatch.setattr("webviz.features.doctor.known_checks", lambda: checks)
     monkeypatch.setattr("webviz.engine.examiner.SLICE_S", -1.0)
     viewer = page_server.begin(is_linked=False)
@@ -106,7 +106,7 @@ def show(tab: ViewerTab, *findings: Finding) -> None:
     if not viewer.rows:
         viewer.show(*named("Ground", "Scan"), fixed_frame="mapp")
     viewer.do(SetFixedFrame("mapp"))
-    Reported.found_now = [with_ids(viewer, each) for each in findings]
+    ReportingCheck.found_now = [with_ids(viewer, each) for each in findings]
     examine(viewer)
     settle(tab)
 

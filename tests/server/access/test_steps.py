@@ -30,7 +30,7 @@ def fetched(request: Request) -> Response | None:
     return Response(200, "OK", Headers(ETag="1"), PAGE)
 
 
-class Full:
+class FullServer:
     """No room for anybody."""
 
     def absence(self, client: RequestContext, /) -> str:
@@ -72,7 +72,7 @@ def test_a_visit_without_a_link_gets_a_page_and_no_grant() -> None:
 
 
 def test_a_channel_needs_no_room_besides_that_of_its_page() -> None:
-    step = within(Full())
+    step = within(FullServer())
     for context in (context_of(), context_of(**SOCKET)):
         reply = step(context)
         assert reply is not None
@@ -81,7 +81,7 @@ def test_a_channel_needs_no_room_besides_that_of_its_page() -> None:
 
 
 def test_a_visitor_in_back_off_is_refused_pages_and_channels() -> None:
-    step = within(Full())
+    step = within(FullServer())
     for context in (context_of(), context_of(**SOCKET), context_of(CHANNEL, **SOCKET)):
         context.address = "192.0.2.1"
         reply = step(context)

@@ -58,7 +58,7 @@ def renderer(browser: playwright.Browser) -> Iterator[HeadlessRenderer]:
 
 
 @dataclass(frozen=True)
-class Ended:
+class CommandResult:
     """Exit status and output of a command."""
 
     status: int
@@ -72,7 +72,7 @@ def screenshot(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capfd: pytest.CaptureFixture[str],
-) -> Iterator[Callable[..., Ended]]:
+) -> Iterator[Callable[..., CommandResult]]:
     """Run `webviz screenshot` in this process, by the tab of all pictures, in the test's folder.
 
     To start Python, a browser and a page takes longer than most pictures.
@@ -83,11 +83,11 @@ def screenshot(
     monkeypatch.chdir(tmp_path)
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
 
-    def screenshot(*arguments: str, config: Path | None = CONFIG) -> Ended:
+    def screenshot(*arguments: str, config: Path | None = CONFIG) -> CommandResult:
         options = () if config is None else ("-d", str(config))
         status = cli(["screenshot", *options, *arguments])
         printed = capfd.readouterr()
-        return Ended(status, printed.out, printed.err)
+        return CommandResult(status, printed.out, printed.err)
 
     yield screenshot
     for number, handler in handlers.items():

@@ -10,7 +10,7 @@ import photos
 import PIL.Image
 import pytest
 
-from tests.shell.pictures.conftest import Ended
+from tests.shell.pictures.conftest import CommandResult
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
@@ -29,7 +29,7 @@ def robot(webviz_domain: int) -> Iterator[Robot]:
 
 
 def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(
-    robot: Robot, tmp_path: Path, screenshot: Callable[..., Ended]
+    robot: Robot, tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     robot.scans["/scan"] = Scan("base", offset_s=-0.1)
     result = screenshot("-o", "a.png", *SMALL, "--timeout", "60")
@@ -40,7 +40,7 @@ def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(
 
 @pytest.mark.usefixtures("robot")
 def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(
-    screenshot: Callable[..., Ended],
+    screenshot: Callable[..., CommandResult],
 ) -> None:
     result = screenshot("-o", "a.png", *SMALL, "--timeout", "0.5")
     assert result.status == 3, result.errors
@@ -50,7 +50,11 @@ def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(
 
 @pytest.mark.parametrize(("name", "is_depth"), [("raw", False), ("raw/compressedDepth", True)])
 def test_an_image_of_a_running_camera_is_written_as_it_is(
-    robot: Robot, tmp_path: Path, screenshot: Callable[..., Ended], name: str, is_depth: bool
+    robot: Robot,
+    tmp_path: Path,
+    screenshot: Callable[..., CommandResult],
+    name: str,
+    is_depth: bool,
 ) -> None:
     colors, depths = photos.room(32, 24)
     millimetres = np.nan_to_num(1000 * depths).astype(np.uint16)
@@ -74,7 +78,9 @@ def test_an_image_of_a_running_camera_is_written_as_it_is(
 
 
 @pytest.mark.usefixtures("robot")
-def test_a_missing_image_is_explained_in_one_sentence(screenshot: Callable[..., Ended]) -> None:
+def test_a_missing_image_is_explained_in_one_sentence(
+    screenshot: Callable[..., CommandResult],
+) -> None:
     # Longer than a page may hide a pane before its display is not received any more.
     result = screenshot("-o", "a.png", "--image", "/nothing", "--timeout", "2.5", config=None)
     assert result.status != 0

@@ -23,7 +23,7 @@ from program import Program
 from several import several
 from waiting import until
 
-from tests.shell.pictures.conftest import Ended
+from tests.shell.pictures.conftest import CommandResult
 from webviz.shell.cli import main as cli
 
 CONFIG = Path(__file__).parent / "top.yaml"
@@ -36,7 +36,7 @@ PATIENCE_S = 180.0
 
 
 @pytest.fixture
-def refusal(screenshot: Callable[..., Ended], tmp_path: Path) -> Callable[..., str]:
+def refusal(screenshot: Callable[..., CommandResult], tmp_path: Path) -> Callable[..., str]:
     """The sentence with which the command refuses; nothing may be written."""
 
     def refusal(*arguments: str) -> str:
@@ -95,7 +95,7 @@ def test_a_picture_of_a_bag(run: Path, tmp_path: Path) -> None:
 
 
 def test_an_image_of_a_bag_is_written_as_it_is(
-    tmp_path: Path, screenshot: Callable[..., Ended]
+    tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     bag = Bag()
     bag.add("/camera/image_raw", photos.RAW)
@@ -123,14 +123,14 @@ def test_an_image_of_a_bag_is_written_as_it_is(
 
 
 def test_without_a_config_the_topics_of_the_bag_are_shown(
-    run: Path, screenshot: Callable[..., Ended]
+    run: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     result = screenshot("--bag", str(run), "-o", "a.png", *SMALL, config=None)
     assert (result.status, result.errors) == (0, "")
 
 
 def test_several_times_and_views_are_files_of_their_own(
-    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+    run: Path, tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     at = ["--at", "1", "--at", "end", "--view", "Far", "--transparent"]
     result = screenshot("--bag", str(run), *at, "-o", "a.png", *SMALL)
@@ -139,7 +139,7 @@ def test_several_times_and_views_are_files_of_their_own(
 
 
 def test_several_times_with_the_ending_of_a_gif_are_an_animation(
-    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+    run: Path, tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     times = ["--from", "1", "--to", "3", "--every", "0.5", "--fps", "4"]
     result = screenshot("--bag", str(run), *times, "-o", "a.gif", *SMALL)
@@ -150,7 +150,7 @@ def test_several_times_with_the_ending_of_a_gif_are_an_animation(
 
 
 def test_a_contact_sheet_is_one_picture(
-    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+    run: Path, tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     sheet = ["--every", "2", "--contact-sheet", "--size", "160x90"]
     result = screenshot("--bag", str(run), *sheet, "-o", "a.png")
@@ -160,7 +160,7 @@ def test_a_contact_sheet_is_one_picture(
 
 
 def test_a_display_that_is_not_ok_makes_a_table_and_status_3(
-    run: Path, tmp_path: Path, screenshot: Callable[..., Ended]
+    run: Path, tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     options = ["--set", "displays.Scan.topic=/scann", "--bag", str(run), "-o", "a.png", *SMALL]
     result = screenshot(*options)
@@ -172,7 +172,7 @@ def test_a_display_that_is_not_ok_makes_a_table_and_status_3(
 
 
 def test_meshes_below_a_mesh_root_are_drawn(
-    tmp_path: Path, screenshot: Callable[..., Ended]
+    tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     mesh = tmp_path / "meshes" / "box.stl"
     mesh.parent.mkdir()
@@ -247,7 +247,7 @@ def test_wrong_arguments_are_status_2(
 
 
 def test_only_skipped_topics_that_a_display_wants_are_listed(
-    tmp_path: Path, screenshot: Callable[..., Ended]
+    tmp_path: Path, screenshot: Callable[..., CommandResult]
 ) -> None:
     bag = strings(0, 1)
     for topic in ("/odd", "/other"):
@@ -325,7 +325,10 @@ def test_a_browser_that_dies_midway_is_one_sentence(
 
 
 def test_a_video_is_a_webp_without_ffmpeg(
-    run: Path, tmp_path: Path, screenshot: Callable[..., Ended], monkeypatch: pytest.MonkeyPatch
+    run: Path,
+    tmp_path: Path,
+    screenshot: Callable[..., CommandResult],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("webviz.shell.pictures.videos.shutil.which", lambda name: None)
     result = screenshot("--bag", str(run), "--every", "2", "--clock", "-o", "a.mp4", *SMALL)
