@@ -22,6 +22,7 @@ from webviz.api.nodes import (
     Points,
     Pose,
 )
+from webviz.data import gltf
 
 Corners = tuple[tuple[float, float, float], tuple[float, float, float]]
 
@@ -73,6 +74,33 @@ def test_a_binary_gltf_is_read_with_the_places_of_its_parts() -> None:
     assert box_of(Glb(data)) == ((8, -1, -3), (12, 1, 3))
 
 
+def test_parts_of_a_gltf_are_scaled_then_turned_then_moved_and_hold_others() -> None:
+    turn = math.sqrt(0.5)
+    document = {
+        "scenes": [{"nodes": [0]}],
+        "nodes": [
+            {"translation": [10, 0, 0], "rotation": [0, 0, turn, turn], "children": [1, 2]},
+            {"mesh": 0},
+            {"mesh": 0, "scale": [4, 1, 1]},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"min": [0, 0, 0], "max": [1, 2, 3]}],
+    }
+    assert box_of(Glb(gltf.pack(document))) == ((8, 0, 0), (10, 4, 3))
+    assert bounds(Glb(gltf.pack({"scenes": [{"nodes": []}]}))) is None
+
+
+def test_points_of_a_large_cloud_are_looked_at_from_the_first_on_spread_evenly() -> None:
+    xyz = np.zeros((10_000, 3), np.float32)
+    xyz[:, 0] = np.arange(10_000)
+    cloud = Points(xyz, (0, 0, 0), 0.2)
+    quick, exact = bounds(cloud, most=300), bounds(cloud, most=10_000)
+    assert quick is not None
+    assert exact is not None
+    assert (quick.low[0], quick.high[0]) == (0.0, 294 * 34)  # every 34th
+    assert (exact.low[0], exact.high[0]) == pytest.approx((-0.1, 9999.1))
+
+
 def test_empty_and_non_finite_points_have_no_box() -> None:
     assert bounds(Points(np.zeros((0, 3), np.float32), (0, 0, 0), 1.0)) is None
     points = np.array([(math.nan, 0, 0), (math.inf, 0, 0)], np.float32)
@@ -104,5 +132,7 @@ def test_the_box_of_many_nodes_is_approximate_where_that_is_enough() -> None:
     assert exact.low == pytest.approx([-9999.1, -0.1, -0.1])
     assert exact.high == pytest.approx([0.1, 0.1, 0.1])
     assert -9999.1 < quick.low[0] < -9900.0
-    assert box_around(placed[:MOST_NODES], 1).low[0] == pytest.approx(1 - MOST_NODES - 0.1)  # pyright: ignore[reportOptionalMemberAccess]
+    few = box_around(placed[:MOST_NODES], 1)
+    assert few is not None
+    assert few.low[0] == pytest.approx(1 - MOST_NODES - 0.1)
     assert box_around([]) is None

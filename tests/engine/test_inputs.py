@@ -270,7 +270,13 @@ def test_a_sync_of_an_unknown_input_is_refused_with_its_name() -> None:
 
 @pytest.mark.parametrize(
     ("inputs", "options"),
-    [(["a"], {}), (["a", "a"], {}), (["a", "b"], {"slop": -1}), (["a", "b"], {"queue_size": 0})],
+    [
+        (["a"], {}),
+        (["a", "a"], {}),
+        (["a", "b", "a"], {}),
+        (["a", "b"], {"slop": -1}),
+        (["a", "b"], {"queue_size": 0}),
+    ],
 )
 def test_a_sync_that_could_match_nothing_is_refused(
     inputs: list[str], options: dict[str, Any]

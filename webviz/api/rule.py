@@ -86,13 +86,15 @@ class Rule:
     @property
     def expectation(self) -> str:
         """The comparison and its limit, such as "> 0.8"."""
-        names = {level: name for name, level in LEVELS.items()} if self.value == "status" else {}
-        return f"{self.comparison} {names.get(self.limit, f'{self.limit:g}')}"
+        return f"{self.comparison} {self._name_of(self.limit) or f'{self.limit:g}'}"
 
     def text_of(self, value: float) -> str:
         """Return a value for sentences."""
-        names = {level: name for name, level in LEVELS.items()} if self.value == "status" else {}
-        return names.get(value, f"{value:.4g}")
+        return self._name_of(value) or f"{value:.4g}"
+
+    def _name_of(self, value: float) -> str:
+        names = {level: name for name, level in LEVELS.items()}
+        return names.get(value, "") if self.value == "status" else ""
 
 
 @dataclass(frozen=True)
