@@ -83,7 +83,7 @@ def play(
 def timeline(play: Callable[[Path], PageBench], bag: Path, viewer_tab: ViewerTab) -> ViewerTab:
     """The tab with a recording of 100 s at 12.5 s."""
     play(bag).do(Seek(12.5))
-    viewer_tab.wait_for(lambda: viewer_tab.page.locator(".wv-track").count() == 1)
+    expect(viewer_tab.page.get_by_label("Go to time")).to_have_value("0:00:12.500")
     viewer_tab.viewer.forget_commands()
     return viewer_tab
 
@@ -274,8 +274,8 @@ def test_a_held_key_steps_on_with_each_answer_and_no_further_than_it_goes(
         assert steps() == 0
     timeline.wait_for(steps)
     assert steps() == 1, "the next step waits for the answer"
-    held_until(lambda: steps() == 2)
-    assert viewer.playback.position_s == 12.8
+    held_until(lambda: steps() >= 2)  # a busy machine may have had time for a third
+    timeline.wait_for(lambda: viewer.playback.position_s == pytest.approx(12.4 + 0.2 * steps()))
     viewer.do(Seek(99.9))
     toast = page.locator(".wv-toast", has_text="There is no next message of a displayed topic.")
     held_until(toast.count)
