@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from bags import START_NS, Bag
+from pages import bounds
 from playwright.sync_api import Locator, Position, expect
 from viser_internals import cut_connections
 
@@ -90,8 +91,7 @@ def timeline(play: Callable[[Path], PageBench], bag: Path, viewer_tab: ViewerTab
 
 def at(tab: ViewerTab, seconds: float) -> Position:
     """The place of a time on the track that shows all 100 s."""
-    box = tab.page.locator(".wv-track").bounding_box()
-    assert box
+    box = bounds(tab.page.locator(".wv-track"))
     return {"x": EDGE + seconds / 100 * (box["width"] - 2 * EDGE), "y": box["height"] / 4}
 
 
@@ -107,7 +107,7 @@ def test_live_topics_have_no_timeline(page_server: PageServer, timeline: ViewerT
     page_server.begin(memory=NO_MEMORY)
     timeline.wait_for(lambda: timeline.page.locator(".wv-track").count() == 0)
     assert timeline.page.locator(".wv-transport").count() == 0
-    assert timeline.page.locator(".wv-time").bounding_box()["height"] < 50  # pyright: ignore[reportOptionalSubscript]
+    assert bounds(timeline.page.locator(".wv-time"))["height"] < 50
 
 
 def test_a_recording_shows_position_length_and_its_time(timeline: ViewerTab) -> None:

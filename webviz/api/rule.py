@@ -21,6 +21,7 @@ COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
 }
 LEVELS = {"ok": 0.0, "warn": 1.0, "error": 2.0}
 """Limits of the value `status` by name."""
+_NAMES = {level: name for name, level in LEVELS.items()}
 VALUES: Mapping[str, str] = {
     "status": "Worst status: ok, warn or error.",
     "rate": "Messages per second.",
@@ -93,8 +94,7 @@ class Rule:
         return self._name_of(value) or f"{value:.4g}"
 
     def _name_of(self, value: float) -> str:
-        names = {level: name for name, level in LEVELS.items()}
-        return names.get(value, "") if self.value == "status" else ""
+        return _NAMES.get(value, "") if self.value == "status" else ""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from webviz.sources.source import Subscription
 
 CLOCK = "rosgraph_msgs/msg/Clock"
 FOLLOWED = (TF, CLOCK)
-"""Types of messages that serve others, and are no steps."""
+"""Types of auxiliary messages, which stepping skips."""
 
 
 class HistoryChannel(NamedTuple):
